@@ -32,7 +32,7 @@ struct Breach {
 ///
 /// The invariants: each triangle is in exactly one leaf; each leaf's box is its triangle's box, rounded as the tree rounds, and
 /// contains it; each inner node's box is the union of its children's boxes, bit for bit; every node is reached exactly once
-/// from the root.
+/// from the root. If boxes may be larger, a box need only contain its triangle's or its children's.
 Breach first_breach(const HostTree& tree, std::span<const Point> points,
                     std::span<const Face> faces);
 

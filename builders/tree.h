@@ -35,6 +35,9 @@ struct HostTree {
 
     /// Rounding of leaf boxes; none by default.
     BoxRounding rounding;
+
+    /// True for trees of code that is not ours, where a box contains what is below it and may be larger.
+    bool boxes_may_be_larger = false;
 };
 
 /// Result of a builder, in the builder's own layout and memory.

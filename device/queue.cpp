@@ -40,12 +40,28 @@ void Queue::forget()
 {
     launches_.clear();
     stages_.clear();
+    begun_.reset();
+    added_wall_ns_ = 0;
 }
 
 void Queue::begin(std::string_view stage)
 {
     stages_.emplace_back();
     stages_.back().stage = stage;
+    if (!begun_)
+        begun_ = std::chrono::steady_clock::now();
+}
+
+void Queue::add(std::vector<StageTime> stages, std::int64_t wall_ns)
+{
+    std::int64_t end = 0;
+    for (const StageTime& time : stages_)
+        end = std::max(end, time.start_ns + time.span_ns);
+    for (StageTime& time : stages) {
+        time.start_ns += time.launches > 0 ? end : 0;
+        stages_.push_back(std::move(time));
+    }
+    added_wall_ns_ += wall_ns;
 }
 
 void Queue::declare(std::int64_t moved_bytes) { stages_.back().moved_bytes += moved_bytes; }
@@ -109,6 +125,10 @@ void Queue::work_on_host(const std::function<void()>& work)
 std::vector<StageTime> Queue::finish()
 {
     queue_.finish();
+    wall_ns_ = std::exchange(added_wall_ns_, 0);
+    if (begun_)
+        wall_ns_ += std::chrono::nanoseconds(std::chrono::steady_clock::now() - *begun_).count();
+    begun_.reset();
     constexpr auto unset = std::numeric_limits<cl_ulong>::max();
     std::vector<cl_ulong> first(stages_.size(), unset);
     std::vector<cl_ulong> last(stages_.size(), 0);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,8 +74,16 @@ public:
     /// Begins the stage `stage`, waits for the queue and runs `work` in it.
     void on_host(std::string_view stage, const std::function<void()>& work);
 
+    /// Adds stages that were measured elsewhere, in a call that took `wall_ns` on the host's clock and has ended. Their starts count
+    /// from the end of those that were added before.
+    void add(std::vector<StageTime> stages, std::int64_t wall_ns);
+
     /// Waits for the queue, and returns and discards the stages recorded since the last call.
     std::vector<StageTime> finish();
+
+    /// Returns the time on the host's clock, in nanoseconds, of the stages that the last finish() returned: from the beginning of
+    /// the first to the end of finish(), and the calls of those that were added.
+    std::int64_t wall_ns() const { return wall_ns_; }
 
     const cl::CommandQueue& cl() const { return queue_; }
 
@@ -89,6 +99,8 @@ private:
     bool is_in_order_ = true;
     std::vector<StageTime> stages_;
     std::vector<Launch> launches_;
+    std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when the first stage began
+    std::int64_t added_wall_ns_ = 0, wall_ns_ = 0;
 };
 
 }  // namespace bvhbench

@@ -5,6 +5,7 @@
 
 #include "harness/commands/command.h"
 #include "harness/stress/libraries.h"
+#include "plugins/worker.h"
 #include "scenes/mesh_worker.h"
 #include "scenes/worker/process.h"
 
@@ -26,11 +27,14 @@ int main(int argc, char** argv)
     using namespace bvhbench;
     hold_standard_streams();
     end_with_parent();
-    // These workers are this same program in a child process: one reads mesh files, one runs libraries under stress.
+    // These workers are this same program in a child process: one reads mesh files, one runs libraries under stress,
+    // one runs builders and colliders from outside.
     if (is_mesh_worker(argc, argv))
         return mesh_worker_main(argc, argv);
     if (is_library_worker(argc, argv))
         return library_worker_main(argc, argv);
+    if (outside::is_worker(argc, argv))
+        return outside::worker_main(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // writing past the file size limit then makes write() fail
     return run_program(argc, argv);
 }

@@ -92,6 +92,9 @@ class Cell:
         self.left_out: dict[str, str] = raw.get("left_out", {})  # counters without a value, each with the reason
         self.leaves_by_depth: list[int] = raw.get("leaves_by_depth", [])  # by level, from the root; empty before format 1.3
         self.accuracy: dict[str, Any] = raw.get("accuracy", {})  # axis, method and seed; empty for other operations
+        self.outside: dict[str, str] = raw.get("outside", {})  # what a builder or collider from outside says of itself; else empty
+        if self.outside:
+            names.OUTSIDE[self.collider or self.builder] = None
         self.swept: dict[str, Any] = raw.get("swept", {})  # kind of pairs and target frame; empty if boxes are of one frame
 
     @property
@@ -129,6 +132,16 @@ class Cell:
     def median_ns(self, stage: str = "") -> float:
         """Returns the median of times_ns, or 0 if no sample has the stage."""
         return median(self.times_ns(stage))
+
+    @property
+    def wall_ns(self) -> float:
+        """Returns the median time of whole samples on the host's clock, or 0 before format 1.11."""
+        return median([sample["wall_ns"] for sample in counted(self.all_samples) if "wall_ns" in sample])
+
+    @property
+    def provenance(self) -> str:
+        """Returns whose a builder or collider from outside is: "cuBQL 1.0 (Apache-2.0) by libcubql.so, on NVIDIA H200"; else nothing."""
+        return "{library} {version} ({licence}) by {file}, on {device}".format_map(self.outside) if self.outside else ""
 
     @property
     def on_host(self) -> bool:

@@ -23,6 +23,7 @@ SEE = "Options that all commands have, exit codes and environment: bvhbench --he
 
 # Options of the whole program. They may come before or after the command, and are passed on to measuring processes.
 COMMON = ("--device", "--kernels", "--data", "--doubles", "--tuning", "--memory-limit", "--time-limit")
+COMMON_LISTS = ("--plugin", "--program")  # may be given several times
 COMMON_FLAGS = ("--force", "--verbose", "--wide")
 
 
@@ -39,6 +40,8 @@ class Parser(argparse.ArgumentParser):
         for option in COMMON:
             if option != "--device" or not several_devices:
                 self.add_argument(option, help=argparse.SUPPRESS)
+        for option in COMMON_LISTS:
+            self.add_argument(option, action="append", default=[], help=argparse.SUPPRESS)
         for flag in COMMON_FLAGS:
             self.add_argument(flag, action="store_true", help=argparse.SUPPRESS)
 
@@ -147,6 +150,9 @@ def common_words(arguments: argparse.Namespace, *without: str) -> list[str]:
         value = getattr(arguments, option[2:].replace("-", "_"))
         if value is not None and option not in without:
             words += [option, value]
+    for option in COMMON_LISTS:
+        if option not in without:
+            words += [word for value in getattr(arguments, option[2:]) for word in (option, value)]
     return words + [flag for flag in COMMON_FLAGS if getattr(arguments, flag[2:]) and flag not in without]
 
 

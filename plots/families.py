@@ -29,4 +29,6 @@ def of_collider(name: str) -> str | None:
 
 
 def of_cell(cell: Cell) -> str:
+    if cell.outside:
+        return cell.outside["library"]
     return of_collider(cell.collider or "") or of_builder(cell.builder)

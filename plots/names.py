@@ -4,12 +4,14 @@ from typing import Any
 
 # Stages in the order in which they run, by the part of a frame that they belong to (docs/measuring.md). A part is named after its
 # stages, so that a figure and a table use one word for one thing.
-PARTS = (("near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "refit", "ropes"), ("copy", "broad"),
+PARTS = (("near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "ropes"), ("copy", "broad"),
          ("narrow",))
 STAGES = tuple(stage for stages in PARTS for stage in stages)
-OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit")
+OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "build", "refit")
 OF_QUERIES = ("ropes", "broad", "narrow")
 BETWEEN = "between stages"
+# Builders and colliders from outside, in the order in which their cells were read (cells.py).
+OUTSIDE: dict[str, None] = {}
 
 # Orders of leaves as in `list orders`. A figure shows an order by its place here, so that its number is the same in all figures.
 ORDERS = ("morton30", "morton48", "morton63", "hilbert30", "hilbert48", "hilbert63", "morton30-axis", "morton48-axis",

@@ -5,6 +5,7 @@ import matplotlib.pyplot as plt
 import numpy
 from matplotlib.colors import to_rgb
 
+import names
 import results
 import style
 
@@ -55,7 +56,8 @@ class Pipeline:
 
     @property
     def colour(self) -> str:
-        return COLOURS.get(self.first.collider or "", None) or style.look(self.first.builder).colour
+        collider = self.first.collider or ""
+        return COLOURS.get(collider) or style.look(collider if collider in names.OUTSIDE else self.first.builder).colour
 
     @property
     def hatch(self) -> str:

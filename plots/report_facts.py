@@ -31,6 +31,9 @@ def facts_of(document: dict[str, Any]) -> list[tuple[str, str]]:
                    f"groups of up to {device['max_group_size']}, timer resolution {device['timer_resolution_ns']} ns"),
         ("Driver", f"{device['platform']}, {device['driver']}, {device['opencl']}, {device['opencl_c']}"),
         ("Libraries", ", ".join(f"{name} {version}" for name, version in run["libraries"].items()))]
+    cells = [Cell(raw) for raw in document["cells"] if "outside" in raw]
+    if whose := {f"{cell.collider or cell.builder}: {cell.provenance}": None for cell in cells}:
+        facts.append(("From outside", "; ".join(whose)))
     if "copy_rate_bytes_per_s" in run:
         over = f", over buffers of {binary(run['copy_rate_buffer_bytes'])}" if "copy_rate_buffer_bytes" in run else ""
         facts.append(("Copy rate", f"{run['copy_rate_bytes_per_s'] / 1e9:,.4g} GB/s read and written{over}"))

@@ -3,6 +3,7 @@ from typing import Any
 
 import accuracy
 import frames
+import names
 import pipelines
 import results
 import style
@@ -15,7 +16,7 @@ SYMBOLS = {"s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamon
 MORE_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "star", "hexagon", "cross", "x", "pentagon",
                 "triangle-left", "triangle-right", "diamond-tall", "hexagon2")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
-HATCHED = {"near": "/", "order": "/", "gather": "/", "refit": ".", "ropes": "x", "copy": "/"}
+HATCHED = {"near": "/", "order": "/", "gather": "/", "build": "+", "refit": ".", "ropes": "x", "copy": "/"}
 # Colours of figures that are too dark on a dark page, and those that replace them there.
 IN_THE_DARK = {"#000000": "#F4F4F4", "#0072B2": "#3C95D6", "#8C510A": "#C07A35", "#666666": "#A0A0A0"}
 UNKNOWN = style.Look("#666666", "o")
@@ -28,7 +29,7 @@ def look_of(cell: dict[str, Any]) -> style.Look:
             return accuracy.look(cell["axis"], cell["who"])
         if cell["collider"] in pipelines.COLOURS:
             return style.Look(pipelines.COLOURS[cell["collider"]], "o")
-        return style.look(cell["builder"])
+        return style.look(cell["collider"] if cell["collider"] in names.OUTSIDE else cell["builder"])
     except results.Refused:
         return UNKNOWN
 

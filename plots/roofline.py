@@ -29,6 +29,8 @@ COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", 
 
 
 def look_of_collider(name: str) -> style.Look:
+    if name in names.OUTSIDE:
+        return style.look(name)
     if name not in COLLIDERS:
         raise results.Refused(f"plots/roofline.py has no look for the collider '{name}'")
     return COLLIDERS[name]

@@ -72,6 +72,8 @@ Series = tuple[str, tuple[tuple[str, str], ...]]  # a builder's name and its opt
 
 
 def look(builder: str) -> Look:
+    if builder in names.OUTSIDE:
+        return VARIANT_LOOKS[list(names.OUTSIDE).index(builder) % len(VARIANT_LOOKS)]
     if builder not in LOOKS:
         raise Refused(f"plots/style.py has no look for the builder '{builder}': add a line to LOOKS")
     return LOOKS[builder]
@@ -89,7 +91,7 @@ def series_of(cell: Cell) -> Series:
 
 def in_order(cells: Iterable[Cell]) -> list[Series]:
     """Returns each series of the cells once, in the order of LOOKS."""
-    builders = list(LOOKS)
+    builders = [*LOOKS, *names.OUTSIDE]
     return sorted({series_of(cell) for cell in cells}, key=lambda s: (builders.index(look(s[0]) and s[0]), s[1]))
 
 

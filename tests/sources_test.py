@@ -24,7 +24,7 @@ from collections.abc import Iterator
 
 CHECK, ROOT, MORE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), "".join(sys.argv[3:4])
 LIBRARY = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "cluster", "library")
-ALL = (*LIBRARY, "scenes", "harness", "benchmarks", "examples", "tests")
+ALL = (*LIBRARY, "scenes", "plugins", "harness", "benchmarks", "examples", "tests")
 SOURCES = (".h", ".cpp", ".cl", ".clh")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 

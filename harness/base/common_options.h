@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace bvhbench {
 
@@ -15,6 +16,8 @@ struct CommonOptions {
     std::string doubles = "recentred";  ///< a doubles_name: how doubles become floats
     /// Folder of tuned values; empty: no tuned values; not set: BVHBENCH_TUNING, else the embedded values.
     std::optional<std::string> tuning;
+    std::vector<std::string> plugins;   ///< shared libraries with builders and colliders
+    std::vector<std::string> programs;  ///< programs with builders and colliders
     std::size_t memory_limit = 0;  ///< bytes, of the process and of the device; 0: what there is
     double time_limit_s = 600;     ///< for a single build or query; 0: no limit
     bool force = false;            ///< whether existing files may be replaced

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/catalog.h"
 
+#include <list>
+#include <vector>
+
 #include "baselines/baselines.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/names.h"
@@ -113,13 +116,120 @@ constexpr ColliderEntry colliders[] = {
      fcl_bytes, true, false, true},
 };
 
+/// What plug-ins add. It is filled once, before the catalogs are used.
+struct Outside {
+    std::vector<BuilderEntry> builders{std::begin(bvhbench::builders),
+                                       std::end(bvhbench::builders)};
+    std::vector<ColliderEntry> colliders{std::begin(bvhbench::colliders),
+                                         std::end(bvhbench::colliders)};
+    // Lists, so that the entries' texts keep their addresses.
+    std::list<outside::Library> libraries;
+    std::list<outside::Offer> offers;
+    std::list<std::string> names;
+    std::string broken;  ///< why plug-ins do not start; empty: all do
+    std::list<BuilderEntry> broken_builders;
+    std::list<ColliderEntry> broken_colliders;
+};
+
+Outside& outside_entries()
+{
+    static Outside entries;
+    return entries;
+}
+
+/// Returns the entry called `name`. If there is none and a plug-in does not start, adds one to `broken`.
+template <class Entries, class Entry>
+const Entry& find_or_broken(const Entries& entries, std::list<Entry>& broken, std::string_view name,
+                            const char* kind)
+{
+    Outside& all = outside_entries();
+    if (all.broken.empty() || find_name(entries, name) != nullptr)
+        return find_called(entries, name, kind);
+    if (const Entry* found = find_name(broken, name))
+        return *found;
+    Entry& entry = broken.emplace_back();
+    entry.name = all.names.emplace_back(name);
+    entry.absent =
+        all.names.emplace_back("no " + std::string(kind) + " is called '" + std::string(name) +
+                               "', and a plug-in does not start: " + all.broken);
+    entry.summary = entry.absent;
+    entry.is_broken = true;
+    return entry;
+}
+
+void require_free(std::string_view name, const std::string& file)
+{
+    const Outside& all = outside_entries();
+    if (find_name(all.builders, name) == nullptr && find_name(all.colliders, name) == nullptr)
+        return;
+    throw BadUsage(file + " has a method '" + std::string(name) +
+                   "', and there is a builder or collider of that name");
+}
+
 }  // namespace
 
-std::span<const BuilderEntry> builder_catalog() { return builders; }
+void add_outside(outside::Library library, const outside::Limits& limits)
+{
+    Outside& all = outside_entries();
+    for (const outside::Method& method : library.methods) {
+        require_free(method.name, library.file);
+        if (method.refits && method.queries)
+            require_free(method.name + "-refit", library.file);
+    }
+    const outside::Library& kept = all.libraries.emplace_back(std::move(library));
+    for (const outside::Method& method : kept.methods) {
+        const outside::Offer* offer =
+            &all.offers.emplace_back(outside::Offer{kept, method, limits});
+        const std::string& summary = all.names.emplace_back(
+            method.summary + " (from outside: " + kept.name + ' ' + kept.version + ", " +
+            kept.licence + ", on " + kept.device + ')');
+        if (method.is_builder())
+            all.builders.push_back({.name = method.name,
+                                    .summary = summary,
+                                    .oracle = own_tree,
+                                    .make = nullptr,
+                                    .is_library = true,
+                                    .outside = offer});
+        const auto add_collider = [&](std::string_view name, std::string_view what, bool refits) {
+            all.colliders.push_back({.name = name,
+                                     .summary = what,
+                                     .make = nullptr,
+                                     .is_library = true,
+                                     .needs_tree = false,
+                                     .finds_contacts = method.finds_contacts,
+                                     .outside = offer,
+                                     .refits = refits});
+        };
+        if (method.queries)
+            add_collider(method.name, summary, false);
+        if (method.queries && method.refits)
+            add_collider(all.names.emplace_back(method.name + "-refit"),
+                         all.names.emplace_back(summary + ", its tree refit to moved points"),
+                         true);
+    }
+}
+
+void add_broken_outside(const std::string& why)
+{
+    std::string& broken = outside_entries().broken;
+    broken += (broken.empty() ? "" : "; ") + why;
+}
+
+const outside::Library* outside_library(std::string_view builder, std::string_view collider)
+{
+    const Outside& all = outside_entries();
+    if (const auto* entry = find_name(all.colliders, collider); entry && entry->outside)
+        return &entry->outside->library;
+    if (const auto* entry = find_name(all.builders, builder); entry && entry->outside)
+        return &entry->outside->library;
+    return nullptr;
+}
+
+std::span<const BuilderEntry> builder_catalog() { return outside_entries().builders; }
 
 const BuilderEntry& find_builder(std::string_view name)
 {
-    return find_called(builder_catalog(), name, "builder");
+    return find_or_broken(builder_catalog(), outside_entries().broken_builders, name, "builder");
 }
 
 void check_boxes(const BuilderChoice& choice)
@@ -127,7 +237,7 @@ void check_boxes(const BuilderChoice& choice)
     if (find_box_format(choice.boxes).number == BOX_F32)
         return;
     std::vector<std::string_view> others;
-    for (const BuilderEntry& entry : builders)
+    for (const BuilderEntry& entry : builder_catalog())
         if (entry.takes_formats)
             others.push_back(entry.name);
     if (!find_builder(choice.name).takes_formats)
@@ -142,23 +252,28 @@ void check_boxes(const BuilderChoice& choice)
 std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs)
 {
     const BuilderEntry& entry = find_builder(choice.name);
+    check_boxes(choice);
+    if (entry.outside != nullptr)
+        return outside::make_builder(*entry.outside);
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
-    check_boxes(choice);
     return entry.make(programs, choice.options());
 }
 
-std::span<const ColliderEntry> collider_catalog() { return colliders; }
+std::span<const ColliderEntry> collider_catalog() { return outside_entries().colliders; }
 
 const ColliderEntry& find_collider(std::string_view name)
 {
-    return find_called(collider_catalog(), name, "collider");
+    return find_or_broken(collider_catalog(), outside_entries().broken_colliders, name, "collider");
 }
 
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
 {
     check_narrow(choice.narrow, choice.keep_adjacent);
     const ColliderEntry& entry = find_collider(choice.name);
+    if (entry.outside != nullptr)
+        return outside::make_collider(*entry.outside, entry.refits, programs.device(),
+                                      choice.options());
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
     return entry.make(programs, choice.options());

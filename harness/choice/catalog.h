@@ -9,6 +9,7 @@
 #include "builders/builder.h"
 #include "collide/collider.h"
 #include "collide/skips.h"
+#include "plugins/methods.h"
 
 namespace bvhbench {
 
@@ -25,12 +26,19 @@ struct BuilderEntry {
     std::string_view may_refuse = {};
     bool is_library = false;     ///< the work is done by a third-party library
     bool takes_formats = false;  ///< whether its tree can hold boxes in any of box_formats()
+    const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
+    bool is_broken =
+        false;  ///< its plug-in, as far as can be told, does not start: `absent` says why
+
+    /// True if it can be made.
+    bool is_there() const { return make != nullptr || outside != nullptr; }
 };
 
-/// Returns every builder, in the order of printed tables.
+/// Returns every builder, in the order of printed tables. Those from outside are last.
 std::span<const BuilderEntry> builder_catalog();
 
-/// Returns the builder called `name`. Throws BadUsage with the known names if there is none.
+/// Returns the builder called `name`. Throws BadUsage with the known names if there is none. If a plug-in does not start, the name
+/// may be one of its: the entry is then broken.
 const BuilderEntry& find_builder(std::string_view name);
 
 /// What a cell measures: a build, a refit of an existing tree, a whole frame (tree update and query), or errors along an axis of
@@ -83,12 +91,18 @@ struct ColliderEntry {
     // These equal what the collider itself returns.
     bool needs_tree = true;       ///< whether it queries a builder's tree
     bool finds_contacts = false;  ///< finds intersecting triangles directly, without box pairs
+    const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
+    bool refits = false;     ///< of a method from outside: refits its tree in each frame
+    bool is_broken = false;  ///< as that of a builder
+
+    /// True if it can be made.
+    bool is_there() const { return make != nullptr || outside != nullptr; }
 };
 
-/// Returns every collider, in the order of printed tables.
+/// Returns every collider, in the order of printed tables. Those from outside are last.
 std::span<const ColliderEntry> collider_catalog();
 
-/// Returns the collider called `name`. Throws BadUsage with the known names if there is none.
+/// Returns the collider called `name`, as find_builder does.
 const ColliderEntry& find_collider(std::string_view name);
 
 /// How a builder's trees follow the points from frame to frame.
@@ -135,5 +149,15 @@ struct ColliderChoice {
 /// Makes the chosen collider. Throws BadUsage if there is none, it does not support the options or the narrow phase is
 /// unsuitable, and Unavailable if this binary was built without it.
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
+
+/// Adds the methods of a library from outside to both catalogs, with what its processes may take. Called before the catalogs are
+/// used, because they do not change afterwards. Throws BadUsage if a name is taken, and then adds nothing.
+void add_outside(outside::Library library, const outside::Limits& limits);
+
+/// Notes that a plug-in does not start, and why. Names that no other plug-in has may be its.
+void add_broken_outside(const std::string& why);
+
+/// Returns the library of a builder or collider from outside; nullptr if neither of the two names is one.
+const outside::Library* outside_library(std::string_view builder, std::string_view collider);
 
 }  // namespace bvhbench

@@ -19,11 +19,11 @@ using enum Table::Align;
 
 std::vector<BuilderChoice> chosen_builders(const std::string& name)
 {
-    if (!name.empty() && find_builder(name).make == nullptr)
+    if (!name.empty() && !find_builder(name).absent.empty())
         throw Unavailable(std::string(find_builder(name).absent));
     std::vector<BuilderChoice> builders;
     for (const BuilderEntry& entry : builder_catalog())
-        if ((name.empty() || name == entry.name) && entry.make != nullptr)
+        if ((name.empty() || name == entry.name) && entry.is_there())
             builders.push_back({.name = std::string(entry.name)});
     return builders;
 }

@@ -25,6 +25,7 @@ constexpr HelpLine environment[] = {
     {"BVHBENCH_DATA", "the folder of data sets, where --data names none"},
     {"BVHBENCH_DEVICE", "the device, where --device names none"},
     {"BVHBENCH_TUNING", "a folder of tuned values, where --tuning names none"},
+    {"BVHBENCH_PLUGINS", "shared libraries with builders and colliders, with : between"},
     {"BVHBENCH_KERNELS", "a source tree to read kernels from, where --kernels names none"},
     {"BVHBENCH_HOME",
      "the folder that plots/ is in, where that is not where the program was built"},

@@ -42,7 +42,7 @@ Table lines(const Entries& entries, const Column&... columns)
 constexpr auto name = [](const auto& entry) { return entry.name; };
 constexpr auto summary = [](const auto& entry) { return entry.summary; };
 constexpr auto summary_or_why_not = [](const auto& entry) {
-    return entry.make != nullptr ? entry.summary : entry.absent;
+    return entry.is_there() ? entry.summary : entry.absent;
 };
 
 Table orders(const CommonOptions&)

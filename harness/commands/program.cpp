@@ -15,6 +15,7 @@
 #include "harness/base/failure.h"
 #include "harness/base/python.h"
 #include "harness/base/terminal.h"
+#include "harness/choice/outside.h"
 #include "harness/commands/words.h"
 #include "harness/session/watchdog.h"
 
@@ -81,6 +82,8 @@ public:
         }
         const auto run_command = [this] {
             limit_host_memory(invocation_.common.memory_limit);
+            for (const std::string& failure : start_outside(invocation_.common))
+                std::cerr << "bvhbench: " << failure << '\n';
             return printed(made_.at(app_.get_subcommands().front())->run(invocation_));
         };
         return supervised(invocation_.common.time_limit_s,

@@ -50,9 +50,10 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
 /// that the host computes for `built` over the moved points, and nothing else may have changed.
 Check check_refit(const HostTree& tree, const HostTree& built, const Input& input, Check before);
 
-/// Returns `before`, or the verdict `differs` if `tree`, the last one sampled, is not the tree of `before`. Timed trees are
-/// checked because data races may strike in some runs only.
-Check check_again(const Tree& tree, Check before);
+/// Returns `before`, or the verdict `differs` if `tree`, the last one sampled over `input`, is not the tree of `before`. Timed trees
+/// are checked because data races may strike in some runs only. Trees from outside, which may differ from run to run, need only
+/// be valid.
+Check check_again(const Tree& tree, const Input& input, Check before);
 
 /// Returns the first requirement that a builder breaks over `input`, as a sentence; empty if it meets all of them:
 ///

@@ -84,7 +84,8 @@ bool Engine::look(Subject& subject, Contest& contest)
         std::vector<StageTime> stages = run_once(subject);
         if (cell.status != Cell::Status::measured)
             return false;
-        cell.samples.push_back({order, std::move(stages)});
+        cell.samples.push_back(
+            {.order = order, .stages = std::move(stages), .wall_ns = session_.queue().wall_ns()});
         place = contest.look(cell, subject.settled, slower_now());
     } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     if (place != Contest::Place::far_behind) {
@@ -169,7 +170,8 @@ void Engine::sample(std::span<Subject> subjects)
                              const watchdog::Hand hand(one.number);
                              return one.once();
                          },
-                         cell.samples, bytes_held(cell)});
+                         cell.samples, bytes_held(cell),
+                         [this] { return session_.queue().wall_ns(); }});
     }
     std::vector<Taken> taken = session_samples(session_, timed, plan_, order_);
     for (std::size_t i = 0; i < ready.size(); ++i) {

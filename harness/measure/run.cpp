@@ -78,13 +78,13 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
     cell.check = check_tree(tree, first, cell.builder, oracle);
     if (refits) {
         session.refit_once(builder, first, &built.tree);  // the same points: nothing may change
-        cell.check = check_again(*built.tree, std::move(cell.check));
+        cell.check = check_again(*built.tree, first, std::move(cell.check));
         session.refit_once(builder, frames.now(), &built.tree);
         const HostTree before = std::exchange(tree, built.tree->spelled_out());
         cell.check = check_refit(tree, before, frames.now(), std::move(cell.check));
     } else if (experiment.start == Start::from_sorted_leaves) {
         session.build_once(builder, first, experiment.start, &built.tree);
-        cell.check = check_again(*built.tree, std::move(cell.check));
+        cell.check = check_again(*built.tree, first, std::move(cell.check));
     }
     count_quality(cell, tree, costs);
     if (experiment.quality)
@@ -100,7 +100,10 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
         cell.counters["device_peak_bytes"] =
             static_cast<double>(std::max(*device.most_taken, *device.taken) - others);
     } else {
-        cell.left_out["device_peak_bytes"] = "the builder takes no memory of the device";
+        cell.left_out["device_peak_bytes"] =
+            find_builder(cell.builder.name).outside != nullptr
+                ? "what a builder from outside takes of the device is not seen"
+                : "the builder takes no memory of the device";
     }
 }
 
@@ -245,11 +248,14 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject = {.cell = empty, .number = number + std::to_string(k)};
         subject.cell.builder = builders[k / experiment.operations.size()];
         subject.cell.operation = experiment.operations[k % experiment.operations.size()];
-        std::string why(find_builder(subject.cell.builder.name).absent);
+        const BuilderEntry& entry = find_builder(subject.cell.builder.name);
+        std::string why(entry.absent);
+        const auto status = entry.is_broken ? Cell::Status::failed : Cell::Status::skipped;
         if (why.empty() && subject.cell.operation == Operation::build)
             why = contest.why_not(subject.cell);
         if (!no_scene.empty() || !why.empty()) {
-            engine.refuse(subject, Cell::Status::skipped, no_scene.empty() ? why : no_scene);
+            engine.refuse(subject, no_scene.empty() ? status : Cell::Status::skipped,
+                          no_scene.empty() ? why : no_scene);
             continue;
         }
         note(subject.cell.builder.name + ", cell " + std::to_string(k + 1) + " of " +
@@ -266,7 +272,8 @@ void Run::scene(const Experiment& experiment, const std::string& name,
                                              &built[k].tree);
         };
         subject.judge_again = [&, k] {
-            subject.cell.check = check_again(*built[k].tree, std::move(subject.cell.check));
+            subject.cell.check =
+                check_again(*built[k].tree, frames.now(), std::move(subject.cell.check));
         };
         if (experiment.start == Start::from_triangles)
             subject.settled = built[k].first;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "geometry/hash.h"
 #include "harness/choice/choices.h"
@@ -23,6 +24,8 @@ static void to_json(Json& json, const Sample& sample)
             json["stages"].push_back({{"stage", time.stage}, {"wall_ns", time.wall_ns}});
         else
             json["stages"].push_back(time);
+    if (sample.wall_ns > 0)
+        json["wall_ns"] = sample.wall_ns;
     if (sample.calibration_ns > 0)
         json["calibration_ns"] = sample.calibration_ns;
     if (sample.drifted)
@@ -93,6 +96,13 @@ std::string cell_text(const Cell& cell)
         options.update(choices_json({.collider = cell.collider}, Choice::Of::collider));
         json["collider"] = {{"name", cell.collider.name}, {"options", std::move(options)}};
     }
+    if (const auto* library = outside_library(cell.builder.name, cell.collider.name))
+        json["outside"] = {{"library", library->name},
+                           {"version", library->version},
+                           {"licence", library->licence},
+                           {"device", library->device},
+                           {"file", std::filesystem::path(library->file).filename().string()},
+                           {"as", library->is_program ? "program" : "plugin"}};
     if (!cell.swept.pairs.empty())
         json["swept"] = cell.swept;
     if (!cell.accuracy.axis.empty())

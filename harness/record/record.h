@@ -25,6 +25,7 @@ struct Sample {
     std::vector<StageTime> stages;
     std::int64_t calibration_ns = 0;  ///< mean of the calibrations before and after; 0: unknown
     bool drifted = false;             ///< whether one of the two is far from the median
+    std::int64_t wall_ns = 0;         ///< host's clock, of the whole sample; 0: unknown
 };
 
 /// Verdict on the correctness of a measured cell. `counted`: the method may be wrong, and the cell's counters have its errors.
@@ -120,7 +121,7 @@ struct Cell {
 };
 
 /// Format version of written files.
-inline const std::string result_format = "1.10";
+inline const std::string result_format = "1.11";
 
 /// Returns a cell as one line of JSON. Numbers that are not finite are left out.
 std::string cell_text(const Cell& cell);

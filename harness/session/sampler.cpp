@@ -247,7 +247,11 @@ private:
         slow_down(stages, cells_[i].name);
         rules_[i].add(whole_ns(stages), drift_.is_steady());
         runners_[i].values.push_back(raced_ns(plan_.rules.race, stages));
-        taken.samples.push_back({order, std::move(stages)});
+        Sample& sample = taken.samples.emplace_back();
+        sample.order = order;
+        sample.stages = std::move(stages);
+        if (cells_[i].wall_ns)
+            sample.wall_ns = cells_[i].wall_ns();
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         taken.stopped = rules_[i].verdict(elapsed.count());
     }

@@ -19,6 +19,8 @@ struct Timed {
     std::function<std::vector<StageTime>()> once;  ///< runs it, waits, returns its stages' times
     std::vector<Sample> earlier = {};              ///< samples that it already has, which count
     double bytes = 0;                              ///< bytes held, for a race for memory
+    /// Returns how long the last `once` took on the host's clock, in nanoseconds; may be empty.
+    std::function<std::int64_t()> wall_ns = {};
 };
 
 /// The samples of one cell.

@@ -55,7 +55,7 @@ public:
     std::string wrong() override
     {
         once();
-        check_ = check_ ? check_again(*tree_, *check_)
+        check_ = check_ ? check_again(*tree_, input_, *check_)
                         : check_tree(tree_->spelled_out(), input_, choice_, oracle_);
         return check_->verdict == Check::Verdict::differs ? check_->detail : std::string();
     }

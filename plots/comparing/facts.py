@@ -23,6 +23,8 @@ def fact_changes(first: Cell, second: Cell, rules: Rules) -> Found:
     for two builders, only verdicts and answers."""
     found: Found = [], []
     compare_verdicts(first, second, found)
+    if first.provenance != second.provenance:
+        found[1].append(f"from outside: {second.provenance or 'no more'}, was {first.provenance or 'ours'}")
     if first.status != "measured" or second.status != "measured":
         return found
     scenes = [cell.scene_facts.get("content_hash", NO_HASH) for cell in (first, second)]

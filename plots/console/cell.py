@@ -18,8 +18,12 @@ def text(cell: Cell, run: results.Run) -> str:
     head += f", {cell.triangles:,} triangles" if cell.triangles else ""
     head += f", standing in for {cell.stand_in_for}" if cell.stand_in_for else ""
     parts = [f"{head}\n"]
+    if cell.outside:
+        parts.append(f"from outside: {cell.provenance}\n")
     if cell.has_times:
         parts += [stages(cell, run.copy_rate_of(cell)), f"{samples(cell)}\n"]
+        if wall := cell.wall_ns:
+            parts.append(f"{duration(wall)} on the host's clock, median\n")
     if first := cell.raw.get("first"):
         parts.append(f"first run {duration(first['run_ns'])} on the host's clock, kernels compiled in "
                      f"{duration(first['compile_ns'])}\n")

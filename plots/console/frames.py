@@ -4,6 +4,7 @@ import numpy
 import results
 from cells import Cell, grouped
 from console import cell as one_cell
+from console import cells as all_cells
 from console import spread
 from tables import Table, duration, fixed, whole
 
@@ -11,29 +12,33 @@ from tables import Table, duration, fixed, whole
 def each(run: results.Run) -> str:
     """Returns a table for each scene and pipeline: one line for each frame, and the mean over those after the first."""
     groups = grouped(run.all_cells, lambda cell: (cell.scene, cell.pipeline))
-    return "".join(f"{pipeline} on {scene}\n{of_pipeline(cells)}" for (scene, pipeline), cells in groups.items())
+    tables = "".join(f"{pipeline} on {scene}\n{of_pipeline(cells)}" for (scene, pipeline), cells in groups.items())
+    return tables + all_cells.outside(run.all_cells)
 
 
 def of_pipeline(cells: list[Cell]) -> str:
-    table = Table("frame", *spread.TITLES, "n", "pairs", "contacts", "<verdict")
+    has_wall = any(cell.wall_ns for cell in cells)
+    table = Table("frame", *spread.TITLES, *["wall"] * has_wall, "n", "pairs", "contacts", "<verdict")
     for cell in cells:
-        times = [*spread.of(cell.times_ns()), str(len(cell.samples))] if cell.has_times else [""] * 6
+        wall = [duration(cell.wall_ns)] * has_wall
+        times = [*spread.of(cell.times_ns()), *wall, str(len(cell.samples))] if cell.has_times else [""] * (6 + has_wall)
         counts = [whole(cell.counters.get(key)) for key in ("pairs_count", "contacts_count")]
         table.row(str(cell.frame), *times, *counts, one_cell.verdict(cell))
     if len(cells) > 1 and all(cell.has_times for cell in cells):
         later = cells[1:]
         counts = [whole(mean(later, key, 1, 0.5)) for key in ("pairs_count", "contacts_count")]
-        table.row("mean of later", duration(sum(cell.median_ns() for cell in later) / len(later)), *[""] * 5, *counts)
+        table.row("mean of later", duration(sum(cell.median_ns() for cell in later) / len(later)), *[""] * (5 + has_wall), *counts)
     return table.text()
 
 
 def text(run: results.Run, printed: str = "") -> str:
     """Returns one line for the frames of a scene by a pipeline, followed by the rows of the paper's table `printed`. Empty if
     there are no frames. Of several frames the first is in the column "first", and all other columns have means over those after it.
-    The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
+    The column "wall" is the host's clock, in ms. The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
                           lambda cell: cell.key("scene", "builder", "collider", "experiment")).values())
-    table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
+    has_wall = any(cell.wall_ns for cells in groups for cell in cells)
+    table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", *["wall"] * has_wall, "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []
     names = [cells[0].scene_facts["name"] for cells in groups]
     for cells, name, next_name in zip(groups, names, [*names[1:], None]):
@@ -44,15 +49,15 @@ def text(run: results.Run, printed: str = "") -> str:
         of_frames = times_of(later)
         copies = [fixed(mean(later, key, 1e-6), 3) for key in ("upload_ns", "read_back_ns")]
         of_first = times_of(cells[:1])[0] if len(cells) > 1 else ""
-        table.row(name + stand_in, first.pipeline, str(len(cells)), of_first, *of_frames, *copies,
+        table.row(name + stand_in, first.pipeline, str(len(cells)), of_first, *of_frames, *[wall_of(later)] * has_wall, *copies,
                   fixed(mean(later, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
                   value=float(of_frames[0] or "nan"))
         for row in rows if name != next_name else ():
             if row["scene"] == (first.stand_in_for or name):
                 table.row("", f"paper: {row['method']}", str(row["frames"]), "", fixed(row["frame_ms"], 3),
-                          fixed(row.get("frame_stdev_ms", 0) or None, 3), "", "", "", fixed(row["memory_megabytes"], 1), "", "", "",
+                          fixed(row.get("frame_stdev_ms", 0) or None, 3), "", *[""] * has_wall, "", "", fixed(row["memory_megabytes"], 1), "", "", "",
                           "printed")
-    return table.text() if groups else ""
+    return table.text() + all_cells.outside([cell for cells in groups for cell in cells]) if groups else ""
 
 
 def table2(run: results.Run) -> str:
@@ -78,6 +83,13 @@ def times_of(cells: list[Cell]) -> list[str]:
     medians = [cell.median_ns() * 1e-6 for cell in cells]
     broad = sum(cell.median_ns("broad") for cell in cells) * 1e-6 / len(cells)
     return [fixed(ms, 3) for ms in (numpy.mean(medians), numpy.std(medians), broad)]
+
+
+def wall_of(cells: list[Cell]) -> str:
+    """Returns the mean over frames of their medians on the host's clock, in ms; blank as times_of."""
+    if any(not cell.checked or not cell.wall_ns for cell in cells):
+        return ""
+    return fixed(numpy.mean([cell.wall_ns * 1e-6 for cell in cells]), 3)
 
 
 def verdict(cells: list[Cell]) -> str:

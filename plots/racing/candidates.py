@@ -9,6 +9,7 @@ from sweeping.planned import Json
 
 BOXES = "f32"
 ON_THE_HOST = "on the host, and the device is a GPU: --with-libraries"
+OUTSIDE = "(from outside: "  # in the text of what a plug-in or program adds
 PLACES = ("mesh", "sorted")  # of leaf boxes
 # What is tried first, by kind of device: the fastest in docs/collisions.md. It decides the order only.
 FIRST = {"gpu": {"name": "oibvh-single", "collider": "block"}, "cpu": {"name": "oibvh-multi", "collider": "group"}}
@@ -36,6 +37,7 @@ class Product:
 
     def __init__(self, asked: Asked, list_of: Callable[[str], List]) -> None:
         self.asked, self.without = asked, {}
+        self.outside = {name for what in ("builders", "colliders") for name, text in list_of(what).items() if OUTSIDE in text}
         self.orders = asked.orders or self.kept(list_of("orders"), self.why_no_order)
         self.boxes = asked.boxes or (list(list_of("formats")) if asked.objective == "memory" else [BOXES])
         self.builders = asked.builders or self.kept(list_of("builders"), self.why_no_builder)
@@ -54,6 +56,8 @@ class Product:
     def why_not_at_all(self, text: str) -> str:
         if text.startswith("built without"):
             return text
+        if OUTSIDE in text:
+            return ""  # whoever names a plug-in wants it
         if text.endswith("the oracle"):
             return "what others are checked against"
         if "host" in text and not (self.asked.on_cpu or self.asked.with_libraries):
@@ -61,6 +65,8 @@ class Product:
         return ""
 
     def why_no_builder(self, name: str, text: str) -> str:
+        if self.asked.objective != "build" and name in self.outside:
+            return "their trees are in a process of their own, where no other collider queries them"
         if self.asked.objective != "build" and families.of_builder(name) in families.ON_HOST:
             return "their trees are on the host, where no collider of the device queries them"
         return self.why_not_at_all(text)
@@ -83,8 +89,8 @@ class Product:
     def all_builders(self) -> list[Json]:
         choices = []
         for name, order, boxes in itertools.product(self.builders, self.orders, self.boxes):
-            has_own = families.of_builder(name) in families.OWN_LEAVES
-            if families.of_builder(name) in families.ON_HOST and order != self.orders[0]:
+            has_own = name in self.outside or families.of_builder(name) in families.OWN_LEAVES
+            if (name in self.outside or families.of_builder(name) in families.ON_HOST) and order != self.orders[0]:
                 continue  # they do not sort
             for leaves in PLACES[:1] if has_own else PLACES if boxes == BOXES else PLACES[1:]:
                 choices.append({"name": name, "order": order, "leaves": leaves, "boxes": boxes})
@@ -96,7 +102,7 @@ class Product:
         if self.asked.objective == "build":
             pairs: list[Any] = [(builder, None) for builder in builders]
         else:
-            alone = [name for name in self.colliders if families.of_collider(name) not in (None, "front tracking")]
+            alone = [name for name in self.colliders if name in self.outside or families.of_collider(name) not in (None, "front tracking")]
             pairs = [(builder, {"name": name}) for builder in builders for name in self.colliders if name not in alone]
             pairs += [(None, {"name": name}) for name in alone]
         return sorted(pairs, key=lambda pair: self.distance(*pair))

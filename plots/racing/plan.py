@@ -21,9 +21,9 @@ UNTIL, LEAST, MOST = 0.05, 5, 12  # quartile range, and samples, of those that n
 USUAL = "soup:70"  # a scene to check names with
 
 
-def list_of(what: str) -> candidates.List:
-    """Returns the names of a list of the program, each with its text."""
-    _, printed = child.run(["list", what], is_kept=True)
+def list_of(what: str, words: list[str]) -> candidates.List:
+    """Returns the names of a list of the program, each with its text. `words` are the common options."""
+    _, printed = child.run(["list", what, *words], is_kept=True)
     return dict((*line.split(maxsplit=1), "")[:2] for line in printed.decode(errors="replace").splitlines())
 
 
@@ -66,7 +66,7 @@ class Plan:
         has_narrow = self.query.get("narrow", "none") != "none"
         asked = candidates.Asked(self.objective, is_cpu, arguments.with_libraries, has_narrow, several,
                                  *(named(arguments, key) for key in ("builders", "orders", "colliders", "boxes")))
-        self.product = candidates.Product(asked, list_of)
+        self.product = candidates.Product(asked, lambda what: list_of(what, self.words))
         self.cells = self.settled(self.scenes[0], self.product.candidates())
         if all(one.why_not for one in self.cells):
             raise WrongUsage(f"nothing can be measured: {self.cells[0].why_not}" if self.cells else "the product is empty")

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -97,13 +98,18 @@ Child::Child(Start start)
                           std::system_category().message(errno));
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (start.input >= 0)
+        posix_spawn_file_actions_adddup2(&files, start.input, STDIN_FILENO);
+    else
+        posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     for (const auto& [file, where] :
          {std::pair(STDOUT_FILENO, start.output), {STDERR_FILENO, start.errors}})
         if (where == Stream::captured)
             posix_spawn_file_actions_adddup2(&files, ends[1], file);
         else if (where == Stream::dropped)
             posix_spawn_file_actions_addopen(&files, file, "/dev/null", O_WRONLY, 0);
+    if (start.errors_to >= 0)
+        posix_spawn_file_actions_adddup2(&files, start.errors_to, STDERR_FILENO);
     const int error = posix_spawnp(&process_, start.path.c_str(), &files, nullptr, words.data(),
                                    variables.data());
     posix_spawn_file_actions_destroy(&files);
@@ -156,10 +162,9 @@ ProcessEnd run_process(const std::vector<std::string>& command, double time_limi
     const auto until =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(
                            std::chrono::duration<double>(std::min(time_limit_s, 1e6)));
-    Child child(
-        {.path = command.front(),
-         .words = command,
-         .environment = {extra_environment, std::string(parent) + '=' + std::to_string(getpid())}});
+    Child child({.path = command.front(),
+                 .words = command,
+                 .environment = {extra_environment, parent_variable()}});
     const bool finished = drain(child, until);
     if (!finished)
         child.send(SIGKILL);
@@ -168,6 +173,8 @@ ProcessEnd run_process(const std::vector<std::string>& command, double time_limi
         end.how = ProcessEnd::How::timed_out;
     return end;
 }
+
+std::string parent_variable() { return std::string(parent) + '=' + std::to_string(getpid()); }
 
 void end_with_parent()
 {
@@ -212,6 +219,26 @@ MemoryFile::~MemoryFile() { close(file_); }
 std::string MemoryFile::path() const
 {
     return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
+}
+
+std::size_t MemoryFile::size() const
+{
+    struct stat facts = {};
+    return fstat(file_, &facts) == 0 ? static_cast<std::size_t>(facts.st_size) : 0;
+}
+
+bool MemoryFile::read(void* to, std::size_t bytes) const
+{
+    for (std::size_t done = 0; done < bytes;) {
+        const ssize_t count =
+            pread(file_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(done));
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            return false;
+        done += static_cast<std::size_t>(count);
+    }
+    return true;
 }
 
 bool write_all(int file, std::string_view bytes)

@@ -33,9 +33,11 @@ public:
         std::vector<std::string> words;
         std::vector<std::string> environment = {};
         Stream output = Stream::captured, errors = Stream::dropped;
+        int input = -1;      ///< file descriptor that becomes standard input; -1: that is empty
+        int errors_to = -1;  ///< file descriptor that becomes standard error, in place of `errors`
     };
 
-    /// Starts the process with empty standard input. Throws Unavailable if it cannot be started.
+    /// Starts the process. Throws Unavailable if it cannot be started.
     explicit Child(Start start);
     ~Child();
     Child(const Child&) = delete;
@@ -51,6 +53,8 @@ public:
 
     void send(int signal) const;
 
+    pid_t id() const { return process_; }
+
     /// Waits until the process has ended.
     ProcessEnd wait();
 
@@ -65,16 +69,25 @@ private:
 ProcessEnd run_process(const std::vector<std::string>& command, double time_limit_s,
                        const std::string& extra_environment);
 
-/// A file in memory that child processes can read by its path while this object exists.
+/// Returns the variable, "NAME=value", that makes a child of this program end with this process.
+std::string parent_variable();
+
+/// A file in memory that child processes can read and write by its path while this object exists.
 class MemoryFile {
 public:
     /// Throws Unavailable if there is no room for the bytes.
-    explicit MemoryFile(std::string_view bytes);
+    explicit MemoryFile(std::string_view bytes = {});
     ~MemoryFile();
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
     std::string path() const;
+
+    /// Returns the size in bytes, which a child may have changed.
+    std::size_t size() const;
+
+    /// Reads `bytes` from the front of the file. False if there are fewer.
+    bool read(void* to, std::size_t bytes) const;
 
 private:
     int file_;

@@ -18,14 +18,14 @@ flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-san
     -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1)
 objects=()
 for source in scenes/formats/{formats,obj,off,ply,ply_header,stl,text}.cpp scenes/{ground_truth,sequence_facts}.cpp \
-    harness/choice/{choices,collide_task,experiment,experiment_pipelines,scene_choice}.cpp \
+    harness/choice/{choices,experiment,experiment_lists,scene_choice}.cpp plugins/protocol.cpp \
     harness/base/json_keys.cpp harness/commands/{program,words}.cpp harness/session/tuning_file.cpp; do
     object=$to/${source//\//_}.o
     objects+=("$object")
     [[ $object -nt $source ]] || clang++-14 "${flags[@]}" -fsanitize=fuzzer-no-link -c "$source" -o "$object"
 done
 libraries=()
-for room in harness scenes baselines collide oibvh builders device geometry; do
+for room in harness plugins scenes baselines collide oibvh builders device geometry; do
     libraries+=("$from/$room/lib$room.a")
 done
 libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lgmp -lmpfr -lpthread -ldl)

@@ -5,10 +5,12 @@
 #include <fstream>
 #include <functional>
 
+#include "builders/spell_out.h"
 #include "geometry/error.h"
 #include "harness/choice/experiment.h"
 #include "harness/commands/command.h"
 #include "harness/session/tuning_file.h"
+#include "plugins/protocol.h"
 #include "scenes/formats/formats.h"
 #include "scenes/ground_truth.h"
 #include "scenes/sequence.h"
@@ -68,6 +70,38 @@ namespace {
     scene.frames.assign(2, std::vector<Point>(4));
     scene.faces = {{0, 1, 2}, {0, 2, 3}};
     ground_truth_of(scene, unique_edges(scene));
+}
+
+/// Reads the first line as the reply to `hello` and to a timed call, and the rest as a tree: as many nodes as there are whole ones, and
+/// entries.
+[[maybe_unused]] void plugin_reply(const std::string& bytes)
+{
+    const auto tried = [](const auto& read) {
+        try {
+            read();
+        } catch (const Unavailable&) {
+        }
+    };
+    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+    const std::string line = bytes.substr(0, end),
+                      rest = bytes.substr(std::min(end + 1, bytes.size()));
+    tried([&] {
+        outside::Library library;
+        outside::describe(library, outside::parsed_reply(line));
+    });
+    tried([&] { outside::stages_of(outside::parsed_reply(line), 1000); });
+    outside::last_words(rest);
+    std::vector<bvhbench_node> nodes(rest.size() / sizeof(bvhbench_node));
+    std::vector<std::uint32_t> entries((rest.size() - nodes.size() * sizeof(bvhbench_node)) / 4);
+    const std::size_t of_nodes = nodes.size() * sizeof(bvhbench_node);
+    rest.copy(reinterpret_cast<char*>(nodes.data()), of_nodes);
+    rest.copy(reinterpret_cast<char*>(entries.data()), entries.size() * 4, of_nodes);
+    const std::vector<Point> points(3);
+    const std::vector<Face> faces(4, Face{0, 1, 2});
+    tried([&] {
+        const HostTree tree = outside::tree_of(nodes, entries, points, faces);
+        first_breach(tree, points, faces);
+    });
 }
 
 }  // namespace

@@ -32,10 +32,10 @@ def installed(prefix: pathlib.Path) -> list[str]:
 
 
 def check_files(prefix: pathlib.Path) -> None:
-    """Asserts that one header, one library, the package files and the licence are installed, free of local paths and -march."""
+    """Asserts that the library's header, that of plug-ins, one library, the package files and the licence are installed, free of local paths and -march."""
     names = [pathlib.PurePath(name).name for name in installed(prefix)]
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
-    assert headers == ["include/bvhbench/oibvh.h"], headers
+    assert headers == ["include/bvhbench/oibvh.h", "include/bvhbench/plugin.h"], headers
     assert names.count(pathlib.Path(LIBRARY).name) == 1, names
     package = {"bvhbench-oibvh.pc", "bvhbenchConfig.cmake", "bvhbenchConfigVersion.cmake", "bvhbenchTargets.cmake", "LICENSE"}
     assert package <= set(names), names

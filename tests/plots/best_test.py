@@ -250,6 +250,18 @@ class TheCandidates(unittest.TestCase):
         self.assertEqual([names for why, names in product.without.items() if "built without" in why], [])
         self.assertEqual(self.product("build").without["built without Embree"], ["embree-low"])
 
+    def test_from_outside_are_there_on_any_device(self) -> None:
+        text = "every two (from outside: Halves 1.0, MIT, on host)"
+        lists = LISTS | {"builders": LISTS["builders"] | {"halves": text},
+                         "colliders": LISTS["colliders"] | {"halves": text, "halves-refit": text}}
+        for objective, on_cpu in (("frame", False), ("build", True)):
+            asked = candidates.Asked(objective, on_cpu, with_libraries=False, has_narrow=False, has_frames=False)
+            product = candidates.Product(asked, lists.__getitem__)
+            self.assertEqual("halves" in product.builders, objective == "build")
+            pairs = [pair for pair in product.candidates() if {"name": "halves"} in pair or (pair[0] or {}).get("name") == "halves"]
+            self.assertEqual(len(pairs), 1, pairs)
+            self.assertNotIn("halves-refit", product.colliders)
+
     def test_are_each_there_once_and_likely_ones_first(self) -> None:
         pairs = self.product().candidates()
         self.assertEqual(len({json.dumps(pair) for pair in pairs}), len(pairs))

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include <optional>
+
+#include "collide/oracles/host_collider.h"
+#include "plugins/methods.h"
+#include "plugins/state.h"
+
+namespace bvhbench::outside {
+namespace {
+
+class OutsideCollider final : public Collider {
+public:
+    OutsideCollider(const Offer& offer, bool refits, const Device& device,
+                    const ColliderOptions& options)
+        : offer_(offer)
+        , refits_(refits)
+        , name_(offer.method.name + (refits ? "-refit" : ""))
+        , device_(device)
+        , state_(offer.library, offer.method, offer.limits)
+    {
+        if (options.among != Among::all || !options.keep_adjacent)
+            throw BadUsage("the collider " + name_ +
+                           " comes from outside and finds all pairs: it takes neither 'pairs_of' "
+                           "nor 'adjacent'");
+    }
+
+    ColliderCard card() const override { return {name_, offer_.library.name}; }
+    bool needs_tree() const override { return false; }
+    bool is_on_host() const override { return true; }
+    bool finds_contacts() const override { return offer_.method.finds_contacts; }
+    std::string refusal(const Tree&) const override { return {}; }
+    bool complete(const Queue&) override { return true; }
+
+    void reserve(const Tree*, const Input& input) override
+    {
+        state_.reset();
+        found_.reset();
+        state_.hold(input);
+        if (!refits_)
+            return;
+        Queue queue(device_);
+        state_.run("build", queue);
+    }
+
+    Footprint reserved() const override { return {state_.bytes(), 0}; }
+
+    void query(const Tree*, const Input& input, Queue& queue) override
+    {
+        found_.reset();
+        state_.hold(input);
+        queue.cl().finish();  // nothing else runs beside it
+        if (offer_.method.builds)
+            state_.run(refits_ ? "refit" : "build", queue);
+        state_.run("query", queue);
+    }
+
+    QueryCounts counts(const Queue&) const override
+    {
+        QueryCounts counts;
+        counts.pairs = found().size();
+        counts.more = {{"round_trip_ns", static_cast<std::uint64_t>(state_.round_trip_ns())}};
+        return counts;
+    }
+
+    std::vector<Pair> pairs(const Queue&) const override { return found(); }
+
+    DevicePairs device_pairs(Queue& queue) override
+    {
+        const std::vector<Pair>& pairs = found();
+        if (copied_.pairs.size() < std::max<std::size_t>(1, pairs.size())) {
+            copied_ = {};  // frees the old buffers first
+            copied_ = room_for_pairs(device_, pairs.size() + pairs.size() / 8 + 1);
+        }
+        queue.on_host("copy", [&] { copy_pairs(pairs, copied_, queue); });
+        return copied_;
+    }
+
+private:
+    /// Fetches the pairs of the last query, once.
+    const std::vector<Pair>& found() const
+    {
+        if (!found_)
+            found_ = state_.pairs();
+        return *found_;
+    }
+
+    Offer offer_;
+    bool refits_;
+    std::string name_;
+    const Device& device_;
+    mutable State state_;
+    mutable std::optional<std::vector<Pair>> found_;
+    DevicePairs copied_;
+};
+
+}  // namespace
+
+std::unique_ptr<Collider> make_collider(const Offer& offer, bool refits, const Device& device,
+                                        const ColliderOptions& options)
+{
+    return std::make_unique<OutsideCollider>(offer, refits, device, options);
+}
+
+}  // namespace bvhbench::outside

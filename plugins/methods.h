@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "builders/builder.h"
+#include "collide/collider.h"
+#include "plugins/process.h"
+
+namespace bvhbench::outside {
+
+/// A method that stands in the catalogs, and what its processes may take. The library must outlive what is made of it.
+struct Offer {
+    const Library& library;
+    const Method& method;
+    Limits limits = {};
+};
+
+/// Makes a builder of a method with `build` and `tree`. Like all builders, it counts what the method says it holds.
+std::unique_ptr<Builder> make_builder(const Offer& offer);
+
+/// Makes a collider of a method with `query`. A query includes the method's build or, if `refits`, its refit. Throws BadUsage for pairs
+/// that are not all of them, which no method from outside is asked for.
+std::unique_ptr<Collider> make_collider(const Offer& offer, bool refits, const Device& device,
+                                        const ColliderOptions& options);
+
+}  // namespace bvhbench::outside

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "builders/input.h"
+#include "plugins/process.h"
+
+namespace bvhbench::outside {
+
+/// One method from outside, at work in a process of its own, which is started for each mesh. All functions throw Unavailable, with a
+/// sentence, if it fails.
+class State {
+public:
+    State(const Library& library, const Method& method, const Limits& limits)
+        : library_(library), method_(method), limits_(limits)
+    {}
+
+    /// Gives the process this frame, unless it has it: its mesh by `prepare`, its points by `load`. Not timed.
+    void hold(const Input& input);
+
+    /// Runs `build`, `refit` or `query`, and adds its stages and the time of the call to the queue.
+    void run(std::string_view call, Queue& queue);
+
+    /// Results of the last calls. Not timed.
+    std::vector<Pair> pairs();
+    HostTree tree();
+
+    /// Returns the bytes that it says it holds; 0 before the first frame. Throws if they are more than allowed.
+    std::uint64_t bytes();
+
+    /// Returns the least time, in nanoseconds, of a request that does nothing: what each call costs beside its work.
+    std::int64_t round_trip_ns() const { return round_trip_ns_; }
+
+    /// Ends the process.
+    void reset() { process_.reset(); }
+
+private:
+    void start(const Input& input);
+
+    const Library& library_;
+    const Method& method_;
+    Limits limits_;
+    std::unique_ptr<Process> process_;
+    std::vector<Face> faces_;    ///< of the process's mesh
+    std::vector<Point> points_;  ///< of its frame; empty: none
+    std::int64_t round_trip_ns_ = 0;
+};
+
+}  // namespace bvhbench::outside

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * A plug-in for tests: a tree that halves the triangles in their given order, and all pairs by comparing every two boxes. It is
+ * right, unless PLUGIN_FAULT in the environment names a way in which it is to be wrong.
+ */
+#include <bvhbench/plugin.h>
+
+#include <float.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
+
+typedef struct State {
+    bvhbench_mesh mesh;
+    const float *points;
+    bvhbench_node *nodes;
+    uint64_t node_count;
+    uint32_t *entries;
+    uint64_t entry_count;
+    uint32_t *pairs;
+    uint64_t pair_count, pair_room;
+    const char *error;
+} State;
+
+static int is(const char *fault)
+{
+    const char *asked = getenv("PLUGIN_FAULT");
+    return asked != NULL && strcmp(asked, fault) == 0;
+}
+
+static uint64_t now_ns(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+static void begin(bvhbench_stages *stages, const char *name)
+{
+    bvhbench_stage *stage = &stages->stage[stages->count++];
+    stage->name = name;
+    stage->on_device = is("on-device");
+    stage->begin_ns = now_ns();
+}
+
+static void end(bvhbench_stages *stages)
+{
+    bvhbench_stage *stage = &stages->stage[stages->count - 1];
+    stage->end_ns = now_ns() + (is("leak") ? 1000000000u : 0u);
+}
+
+static void *create(char *why)
+{
+    if (is("create")) {
+        snprintf(why, 256, "there is no device for it");
+        return NULL;
+    }
+    return calloc(1, sizeof(State));
+}
+
+static int prepare(void *state, const bvhbench_mesh *mesh)
+{
+    State *s = state;
+    if (is("fails")) {
+        s->error = "it does not like this mesh";
+        return 1;
+    }
+    s->mesh = *mesh;
+    s->nodes = malloc(2 * mesh->triangles * sizeof *s->nodes);
+    s->entries = malloc(4 * mesh->triangles * sizeof *s->entries);
+    if (is("memory")) { /* shared memory, which no limit of allocations counts */
+        const size_t bytes = (size_t)600 << 20;
+        char *much = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        for (size_t k = 0; much != MAP_FAILED && k < bytes; k += 4096)
+            much[k] = 1;
+        sleep(2);
+    }
+    return s->nodes == NULL || s->entries == NULL;
+}
+
+static int load(void *state, const float *points)
+{
+    ((State *)state)->points = points;
+    return 0;
+}
+
+static void box_of(const State *s, uint32_t triangle, float *low, float *high)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = FLT_MAX;
+        high[axis] = -FLT_MAX;
+        for (int corner = 0; corner < 3; ++corner) {
+            const float x = s->points[3 * s->mesh.faces[3 * triangle + corner] + axis];
+            low[axis] = x < low[axis] ? x : low[axis];
+            high[axis] = x > high[axis] ? x : high[axis];
+        }
+    }
+}
+
+/* Makes the boxes of all nodes, whose children come after them. */
+static void refresh(State *s)
+{
+    for (uint64_t k = s->node_count; k-- > 0;) {
+        bvhbench_node *node = &s->nodes[k];
+        for (uint32_t e = 0; e < node->count; ++e) {
+            const uint32_t entry = s->entries[node->first + e];
+            float low[3], high[3];
+            if (node->is_leaf) {
+                box_of(s, entry, low, high);
+            } else {
+                memcpy(low, s->nodes[entry].low, sizeof low);
+                memcpy(high, s->nodes[entry].high, sizeof high);
+            }
+            for (int axis = 0; axis < 3; ++axis) {
+                if (e == 0 || low[axis] < node->low[axis])
+                    node->low[axis] = low[axis];
+                if (e == 0 || high[axis] > node->high[axis])
+                    node->high[axis] = high[axis];
+            }
+        }
+    }
+}
+
+/* Adds the tree over the triangles first to first + count - 1, leaves of two at most, and returns its root. */
+static uint32_t add(State *s, uint32_t first, uint32_t count)
+{
+    const uint32_t own = (uint32_t)s->node_count++;
+    bvhbench_node *node = &s->nodes[own];
+    node->is_leaf = count <= 2;
+    node->count = count == 1 ? 1 : 2;
+    node->first = (uint32_t)s->entry_count;
+    s->entry_count += node->count;
+    for (uint32_t half = 0; half < node->count; ++half) {
+        const uint32_t at = s->nodes[own].first + half;
+        if (s->nodes[own].is_leaf)
+            s->entries[at] = first + half;
+        else
+            s->entries[at] =
+                add(s, first + half * (count / 2), half ? count - count / 2 : count / 2);
+    }
+    return own;
+}
+
+static int build(void *state, bvhbench_stages *stages)
+{
+    State *s = state;
+    if (is("crash"))
+        raise(SIGSEGV);
+    if (is("exit")) {
+        fprintf(stderr, "CUDA error 700\n");
+        exit(7);
+    }
+    if (is("hang"))
+        for (;;)
+            pause();
+    if (is("chatty"))
+        for (int k = 0; k < 5000; ++k)
+            printf("a library that prints what it does, line %d\n", k);
+    if (is("stages")) {
+        stages->count = 17;
+        return 0;
+    }
+    begin(stages, is("unknown-stage") ? "magic" : "build");
+    s->node_count = s->entry_count = 0;
+    add(s, 0, (uint32_t)s->mesh.triangles);
+    refresh(s);
+    end(stages);
+    return 0;
+}
+
+static int refit(void *state, bvhbench_stages *stages)
+{
+    begin(stages, "refit");
+    refresh(state);
+    end(stages);
+    return 0;
+}
+
+static int query(void *state, bvhbench_stages *stages)
+{
+    State *s = state;
+    begin(stages, "broad");
+    s->pair_count = 0;
+    for (uint32_t a = 0; a < s->mesh.triangles; ++a) {
+        float low[3], high[3];
+        box_of(s, a, low, high);
+        for (uint32_t b = a + 1; b < s->mesh.triangles; ++b) {
+            float other_low[3], other_high[3];
+            box_of(s, b, other_low, other_high);
+            int meets = 1;
+            for (int axis = 0; axis < 3; ++axis)
+                meets = meets && low[axis] <= other_high[axis] && other_low[axis] <= high[axis];
+            if (!meets)
+                continue;
+            if (s->pair_count == s->pair_room) {
+                s->pair_room = 2 * s->pair_room + 64;
+                s->pairs = realloc(s->pairs, 2 * s->pair_room * sizeof *s->pairs);
+            }
+            s->pairs[2 * s->pair_count] = b;
+            s->pairs[2 * s->pair_count++ + 1] = a;
+        }
+    }
+    end(stages);
+    return 0;
+}
+
+static int pairs(void *state, uint64_t *count, const uint32_t **two_each)
+{
+    State *s = state;
+    *count = s->pair_count;
+    *two_each = s->pairs;
+    if (is("missed-pair") && s->pair_count > 0)
+        --*count;
+    if (is("false-triangle") && s->pair_count > 0)
+        s->pairs[0] = (uint32_t)s->mesh.triangles;
+    return 0;
+}
+
+static int tree(void *state, bvhbench_tree *out)
+{
+    State *s = state;
+    out->nodes = s->node_count;
+    out->node = s->nodes;
+    out->entries = s->entry_count;
+    out->entry = s->entries;
+    if (is("small-box"))
+        s->nodes[0].high[0] = s->nodes[0].low[0];
+    if (is("lost-triangle"))
+        s->entries[s->entry_count - 1] = s->entries[s->entry_count - 2];
+    if (is("wild-entry"))
+        s->nodes[0].first = 0xffffffffu;
+    return 0;
+}
+
+static uint64_t bytes(void *state)
+{
+    const State *s = state;
+    return is("device-memory") ? (uint64_t)1 << 50
+                               : s->mesh.triangles * (2 * sizeof *s->nodes + 16);
+}
+
+static const char *error(void *state) { return ((State *)state)->error; }
+
+static void destroy(void *state)
+{
+    State *s = state;
+    free(s->nodes);
+    free(s->entries);
+    free(s->pairs);
+    free(s);
+}
+
+const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
+{
+    static bvhbench_method methods[] = {
+        {"halves", "halves in the given order, and every two boxes", create, prepare, load, build,
+         refit, query, pairs, 0, tree, bytes, error, destroy},
+        {"every-two", "no tree: every two boxes", create, prepare, load, NULL, NULL, query, pairs,
+         0, NULL, bytes, error, destroy}};
+    static bvhbench_plugin plugin = {
+        BVHBENCH_PLUGIN_ABI, "Halves", "1.0", "MIT", "host", 2, methods};
+    (void)host_abi;
+    if (is("old-host"))
+        return NULL;
+    if (is("abi"))
+        plugin.abi = BVHBENCH_PLUGIN_ABI + 1;
+    if (is("dies-at-start"))
+        abort();
+    if (is("taken-name"))
+        methods[0].name = "karras";
+    if (is("bad-name"))
+        methods[0].name = "Halves!";
+    if (is("no-pairs"))
+        methods[1].pairs = NULL;
+    if (is("no-load"))
+        methods[1].load = NULL;
+    return &plugin;
+}

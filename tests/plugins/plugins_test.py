@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""Tests builders and colliders from outside, as shared libraries and as programs: right ones, and ones that are wrong in every way.
+
+Usage: plugins_test.py <bvhbench> <result schema> <right plug-in> <shared library without the symbol>"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
+from program import PROGRAM, SOURCE, expect, experiment, main, only, ours, run, valid, wait_until  # noqa: E402
+
+GOOD, NO_SYMBOL = (str(pathlib.Path(word).resolve()) for word in sys.argv[3:5])
+PLAIN = str(SOURCE / "tests/plugins/program.py")
+QUICK = ("--scene", "torus:200", "--samples", "3")
+BUILD = ("build", "--plugin", GOOD, "--builder", "halves,median-split", *QUICK)
+COLLIDE = ("collide", "--plugin", GOOD, "--collider", "halves,brute", *QUICK)
+
+
+def cells(*words: str, code: int = 0, **environment: str) -> dict[str, dict]:
+    """Returns the cells of a command, by their builder or collider. A command never leaves a process behind."""
+    key = "--out" if words[0] == "run" else "--json"
+    done = run(*words, key, "r.json", "--force", **environment)
+    assert done.returncode == code, done
+    wait_until(lambda: not ours(), 10)
+    return {cell.get("collider", cell["builder"])["name"]: cell for cell in valid("r.json")["cells"]}
+
+
+def refused(cell: dict, *words: str) -> None:
+    """Tests that a cell failed, with one sentence of these words, and has no time."""
+    assert cell["status"] == "failed" and "samples" not in cell, cell
+    for word in words:
+        assert word in cell["reason"], (word, cell["reason"])
+    assert "\n" not in cell["reason"]
+
+
+def test_a_builder_is_judged_measured_and_marked():
+    found = cells(*BUILD, "--epo")
+    halves = found["halves"]
+    assert halves["check"]["verdict"] == "agrees" and halves["check"]["against"] == "contract"
+    assert halves["outside"] == {"library": "Halves", "version": "1.0", "licence": "MIT", "device": "host",
+                                 "file": pathlib.Path(GOOD).name, "as": "plugin"}
+    assert "outside" not in found["median-split"]
+    assert halves["counters"]["sah_cost"] > 0 and halves["counters"]["epo"] >= 0 and halves["counters"]["tree_bytes"] == 200 * 88
+    for name, cell in found.items():
+        assert len(cell["samples"]) == 3
+        for sample in cell["samples"]:
+            assert sample["wall_ns"] >= sum(stage["wall_ns"] for stage in sample["stages"]), (name, sample)
+    assert [stage["stage"] for stage in halves["samples"][0]["stages"]] == ["build"]
+
+
+def test_samples_are_taken_by_turns():
+    orders = [[sample["order"] for sample in cell["samples"]] for cell in cells(*BUILD).values()]
+    assert max(orders[0]) > min(orders[1]) and max(orders[1]) > min(orders[0]), orders
+
+
+def test_a_collider_finds_the_pairs_of_the_oracle():
+    found = cells("collide", "--plugin", GOOD, "--program", PLAIN, "--collider", "halves,halves-refit,every-two,plain,brute",
+                  "--scene", "cloth-ball:200:3", "--frames", "0:3", "--samples", "2")
+    assert {cell["check"]["verdict"] for cell in found.values()} == {"agrees"}
+    assert len({cell["check"]["pairs_hash"] for cell in found.values()}) == 1
+    stages = {name: [stage["stage"] for stage in cell["samples"][0]["stages"]] for name, cell in found.items()}
+    assert stages == {"halves": ["build", "broad"], "halves-refit": ["refit", "broad"], "every-two": ["broad"], "plain": ["broad"],
+                      "brute": ["broad"]}
+    assert found["plain"]["outside"]["as"] == "program" and found["plain"]["outside"]["library"] == "Plain"
+    assert found["plain"]["counters"]["round_trip_ns"] > 0
+
+
+def test_pairs_from_outside_go_through_our_narrow_phase():
+    found = cells("collide", "--plugin", GOOD, "--collider", "halves,brute", "--narrow", "exact", *QUICK)
+    assert {cell["check"]["verdict"] for cell in found.values()} == {"agrees"}
+    assert len({cell["check"]["contacts_hash"] for cell in found.values()}) == 1
+
+
+def test_a_refit_is_judged():
+    plan = experiment("refit.json", scenes=["cloth-ball:300:2"], builders=["halves"], operations=["build", "refit"])
+    run("run", plan, "--plugin", GOOD, "--out", "refit-result.json")
+    both = valid("refit-result.json")["cells"]
+    assert [(cell["operation"], cell["check"]["verdict"]) for cell in both] == [("build", "agrees"), ("refit", "agrees")]
+
+
+def test_stages_on_a_device_have_the_devices_clock():
+    stage, = cells(*BUILD, PLUGIN_FAULT="on-device")["halves"]["samples"][0]["stages"]
+    assert stage["span_ns"] > 0 and stage["launches"] == 1 and "wall_ns" not in stage
+
+
+def test_it_stands_in_lists_and_in_other_commands():
+    for words in (("--plugin", GOOD), ()):
+        environment = {} if words else {"BVHBENCH_PLUGINS": f"{GOOD}:"}
+        for what in ("builders", "colliders"):
+            assert "\nhalves " in expect(0, "list", what, *words, **environment)
+    assert "\nhalves-refit " in expect(0, "list", "colliders", "--plugin", GOOD, says="from outside: Halves 1.0, MIT, on host")
+    expect(0, "check", "--builder", "halves", "--plugin", GOOD, says="every promise is kept")
+    expect(0, "sweep", "--plugin", GOOD, "--scenes", "torus:200", "--builders", "halves,perfect", "--samples", "2", "--out", "swept")
+    swept = valid("swept/sweep.json")["cells"]
+    assert [cell["check"]["verdict"] for cell in swept] == ["agrees", "agrees"] and "outside" in swept[0]
+    expect(0, "best", "torus:200", "--plugin", GOOD, "--builders", "oibvh-multi", "--orders", "hilbert30",
+           "--colliders", "halves,group", says="halves")
+    assert any("outside" in cell for cell in valid("best.json")["cells"])
+    expect(0, "show", "swept/sweep.json", says="halves, from outside: Halves 1.0 (MIT) by " + pathlib.Path(GOOD).name + ", on host")
+    expect(0, "compare", "swept/sweep.json", "swept/sweep.json", says="2 cells: ")
+    expect(0, "report", "swept/sweep.json", "-o", "page.html")
+    assert "halves: Halves 1.0 (MIT) by " in pathlib.Path("page.html").read_text()
+    other = json.loads(pathlib.Path("swept/sweep.json").read_text())
+    other["cells"][0]["outside"]["version"] = "1.1"
+    pathlib.Path("other.json").write_text(json.dumps(other))
+    expect(0, "compare", "swept/sweep.json", "other.json", says="from outside: Halves 1.1 (MIT)")
+
+
+CALLS = {  # fault of the library: what the sentence of the builder's cell says
+    "crash": "in `build`: it crashed (signal 11)",
+    "exit": "in `build`: it ended with exit code 7; its last words: CUDA error 700",
+    "leak": "longer than the",
+    "stages": "it gives 17 stages, and 16 are allowed",
+    "unknown-stage": "no stage is called 'magic'",
+    "create": "in `create`: it says: there is no device for it",
+    "fails": "in `prepare`: it says: it does not like this mesh",
+    "wild-entry": "names entries that are not there",
+    "device-memory": "are allowed",
+}
+
+
+def test_a_wrong_builder_fails_and_the_others_are_measured():
+    for fault, words in CALLS.items():
+        limit = ("--memory-limit", "3G") if fault == "device-memory" else ()
+        found = cells(*BUILD, *limit, PLUGIN_FAULT=fault)
+        refused(found["halves"], pathlib.Path(GOOD).name, words)
+        assert found["median-split"]["check"]["verdict"] == "agrees"
+
+
+def test_a_wrong_tree_has_no_time():
+    for fault, words in {"small-box": "does not contain", "lost-triangle": "is in two leaves"}.items():
+        found = cells(*BUILD, code=1, PLUGIN_FAULT=fault)
+        check = found["halves"]["check"]
+        assert check["verdict"] == "differs" and words in check["detail"] and not found["halves"]["samples"], found["halves"]
+
+
+def test_wrong_pairs_have_no_time():
+    found = cells(*COLLIDE, code=1, PLUGIN_FAULT="missed-pair")
+    assert found["halves"]["check"]["verdict"] == "differs" and not found["halves"]["samples"]
+    assert found["brute"]["check"]["verdict"] == "agrees"
+    refused(cells(*COLLIDE, PLUGIN_FAULT="false-triangle")["halves"], "it found a pair of 200 and ")
+
+
+def test_one_that_hangs_is_ended():
+    found = cells(*BUILD, "--time-limit", "2", PLUGIN_FAULT="hang")
+    refused(found["halves"], "in `build`: it took longer than 1.9 s and was ended; --time-limit")
+    assert found["median-split"]["check"]["verdict"] == "agrees"
+
+
+def test_one_that_takes_too_much_memory_is_ended():
+    refused(cells(*BUILD, "--memory-limit", "500M", PLUGIN_FAULT="memory")["halves"], "out of host memory: it takes ")
+
+
+def test_what_a_library_prints_is_no_reply():
+    assert cells(*BUILD, PLUGIN_FAULT="chatty")["halves"]["check"]["verdict"] == "agrees"
+
+
+STARTS = {  # fault of the library: what is said when it starts
+    "abi": "it was made for version 2 of the interface, and this is version 1",
+    "old-host": "it does not serve version 1 of the interface",
+    "dies-at-start": "in `hello`: it crashed (signal 6)",
+    "taken-name": "has a method 'karras', and there is a builder or collider of that name",
+    "bad-name": "it calls a method 'Halves!'; a name is up to 64 small letters, digits and hyphens",
+    "no-pairs": "its method every-two has `query` without `pairs`",
+    "no-load": "its method every-two lacks `load`",
+}
+
+
+def test_one_that_does_not_start_fails_by_name_and_the_others_are_measured():
+    for fault, words in STARTS.items():
+        found = cells(*BUILD, PLUGIN_FAULT=fault)
+        refused(found["halves"], "no builder is called 'halves', and a plug-in does not start: ", words)
+        assert found["median-split"]["check"]["verdict"] == "agrees"
+    pathlib.Path("text.so").write_text("no library")
+    for file, words in (("none.so", "there is no file 'none.so'"), ("text.so", "text.so in `hello`: it says: it cannot be loaded: "),
+                        (NO_SYMBOL, "it has no symbol `bvhbench_plugin_entry`")):
+        found = cells("build", "--plugin", file, "--builder", "halves,median-split", *QUICK)
+        refused(found["halves"], words)
+        assert found["median-split"]["check"]["verdict"] == "agrees"
+    done = run("list", "builders", "--plugin", "none.so")
+    assert done.returncode == 0 and done.stderr == "bvhbench: there is no file 'none.so'\n" and "karras" in done.stdout, done
+
+
+def test_two_plugins_of_one_name_are_refused():
+    done = run("list", "builders", "--plugin", GOOD, "--plugin", GOOD)
+    assert done.stderr.count("\n") == 1 and "there is a builder or collider of that name" in done.stderr, done
+
+
+PROGRAMS = {  # fault of the program: what the sentence of its cell says
+    "crash": "program.py in `query`: it crashed (signal 11)",
+    "exit": "it ended with exit code 1; its last words: no such device",
+    "close": "it closed its standard output",
+    "leak": "longer than the",
+    "count": "and it says that there are",
+    "not-json": "its reply is malformed: 'Found some pairs!' is no JSON object",
+    "no-stages": "its reply is malformed: there is no 'stages'",
+    "endless": "its reply is malformed: it has more than",
+    "error": "it says: there are too many pairs",
+}
+
+
+def test_a_wrong_program_fails_and_the_others_are_measured():
+    words = ("collide", "--program", PLAIN, "--collider", "plain,brute", *QUICK)
+    for fault, sentence in PROGRAMS.items():
+        found = cells(*words, PLUGIN_FAULT=fault)
+        refused(found["plain"], sentence)
+        assert found["brute"]["check"]["verdict"] == "agrees"
+    refused(cells(*words, "--time-limit", "2", PLUGIN_FAULT="hang")["plain"], "it took longer than 1.9 s")
+    assert cells(*words, code=1, PLUGIN_FAULT="missed-pair")["plain"]["check"]["verdict"] == "differs"
+    for fault, sentence in (("abi", "it was made for version 2"), ("dies-at-start", "its last words: nothing works here")):
+        refused(cells(*words, PLUGIN_FAULT=fault)["plain"], sentence)
+    pathlib.Path("not-executable").write_text("no program")
+    for file, sentence in (("nothing", "there is no file 'nothing'"), ("not-executable", "it cannot be started: Permission denied")):
+        refused(cells("collide", "--program", file, "--collider", "plain,brute", *QUICK)["plain"], sentence)
+
+
+def test_what_a_method_cannot_do_is_skipped():
+    cases = ((("--adjacent", "drop"), "takes neither 'pairs_of' nor 'adjacent'"), (("--swept",), "knows no swept boxes"))
+    for words, sentence in cases:
+        done = run("collide", "--plugin", GOOD, "--collider", "halves,brute", "--scene", "cloth-ball:200:2", "--samples", "1", *words,
+                   "--json", "r.json", "--force")
+        assert done.returncode == 0, done
+        one = next(cell for cell in valid("r.json")["cells"] if cell["collider"]["name"] == "halves")
+        assert one["status"] == "skipped" and (sentence in one["reason"] or words == ("--swept",)), one
+
+
+def test_it_ends_with_the_program_that_started_it():
+    for seconds in (0, 0.5, 2):  # while it starts, and while it hangs
+        with subprocess.Popen([PROGRAM, *BUILD, "--time-limit", "100"], env={**os.environ, "PLUGIN_FAULT": "hang"},
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            wait_until(lambda: any("--outside" in line for line in ours()))
+            time.sleep(seconds)
+            process.kill()
+        wait_until(lambda: not ours(), 10)
+
+
+sys.exit(main(globals()))

@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""A program for tests of --program: all pairs by comparing every two boxes. It is right, unless PLUGIN_FAULT in the environment
+names a way in which it is to be wrong."""
+import json
+import os
+import signal
+import sys
+import time
+from array import array
+
+FAULT = os.environ.get("PLUGIN_FAULT", "")
+METHOD = {"name": "plain", "summary": "every two boxes, in Python", "query": True, "pairs": True}
+
+
+class Plain:
+    def create(self, request):
+        assert request["method"] == "plain"
+
+    def prepare(self, request):
+        self.faces = values("I", request["faces"])
+        assert len(self.faces) == 3 * request["triangles"]
+
+    def load(self, request):
+        points = values("f", request["points"])
+        corners = [[points[3 * vertex:3 * vertex + 3] for vertex in self.faces[3 * k:3 * k + 3]] for k in range(len(self.faces) // 3)]
+        self.boxes = [[(min(axis), max(axis)) for axis in zip(*triangle)] for triangle in corners]
+
+    def query(self, _request):
+        if FAULT == "hang":
+            time.sleep(600)
+        if FAULT == "crash":
+            os.kill(os.getpid(), signal.SIGSEGV)
+        if FAULT == "exit":
+            sys.exit("no such device")
+        if FAULT == "close":
+            os.close(1)
+            time.sleep(600)
+        begin = time.monotonic_ns()
+        self.found = [(a, b) for b in range(len(self.boxes)) for a in range(b)
+                      if all(one[0] <= other[1] and other[0] <= one[1] for one, other in zip(self.boxes[a], self.boxes[b]))]
+        end = time.monotonic_ns() + (10**9 if FAULT == "leak" else 0)
+        return {"stages": [{"name": "broad", "begin_ns": begin, "end_ns": end, "device": False}]}
+
+    def pairs(self, request):
+        found = self.found[:-1] if FAULT == "missed-pair" else self.found
+        with open(request["pairs"], "wb") as file:
+            array("I", [triangle for pair in found for triangle in pair]).tofile(file)
+        return {"count": len(found) + (FAULT == "count")}
+
+    def bytes(self, _request):
+        return {"bytes": 4 * len(self.faces)}
+
+
+def values(kind, path):
+    with open(path, "rb") as file:
+        return array(kind, file.read())
+
+
+def hello():
+    if FAULT == "dies-at-start":
+        sys.exit("nothing works here")
+    return {"protocol": 2 if FAULT == "abi" else 1, "library": "Plain", "version": "2.0", "licence": "MIT", "device": "host",
+            "methods": [METHOD]}
+
+
+def say(text):
+    sys.stdout.write(text)
+    sys.stdout.flush()
+
+
+plain = Plain()
+for line in sys.stdin:
+    request = json.loads(line)
+    call = request["call"]
+    if call == "quit":
+        break
+    reply = hello() if call == "hello" else getattr(plain, call)(request) or {}
+    if call == "query" and FAULT == "not-json":
+        say("Found some pairs!\n")
+    elif call == "query" and FAULT == "no-stages":
+        say('{"ok": true}\n')
+    elif call == "query" and FAULT == "endless":
+        for _ in range(5000):
+            say(1000 * "x")
+    elif call == "query" and FAULT == "error":
+        say('{"error": "there are too many pairs"}\n')
+    else:
+        say(json.dumps({"ok": True, **reply}) + "\n")
