@@ -144,7 +144,9 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
         adapter::method<adapter::HostCollider<Quantized>>(
             "bullet-quantized",
             "btQuantizedBvh: buildInternal on one core; reportAabbOverlappingNodex on all")};
+    static const std::string version =
+        std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100);
     static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "Bullet", LIBRARY_VERSION, "Zlib", "host", 2, methods};
+        BVHBENCH_PLUGIN_ABI, "Bullet", version.c_str(), "Zlib", "host", 2, methods};
     return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
 }
