@@ -145,11 +145,9 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
     static const bvhbench_method methods[] = {adapter::method<Collider>(
         "arborx", "BoundingVolumeHierarchy with 64-bit Morton codes; HalfTraversal")};
 #ifdef KOKKOS_ENABLE_CUDA
-    static const std::string device = adapter::device_name();
+    const std::string device = adapter::device_name();
 #else
-    static const std::string device = "host";
+    const std::string device = "host";
 #endif
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "ArborX", LIBRARY_VERSION, "BSD-3-Clause", device.c_str(), 1, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "ArborX", LIBRARY_VERSION, "BSD-3-Clause", device, methods);
 }

@@ -146,7 +146,5 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
             "btQuantizedBvh: buildInternal on one core; reportAabbOverlappingNodex on all")};
     static const std::string version =
         std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100);
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "Bullet", version.c_str(), "Zlib", "host", 2, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "Bullet", version.c_str(), "Zlib", "host", methods);
 }

@@ -130,7 +130,5 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
                                       "DefaultBuilder, low quality, all cores; traverse_top_down"),
         method<Builder::Quality::High>(
             "bvh-v2-high", "DefaultBuilder, high quality, all cores; traverse_top_down")};
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "bvh v2", LIBRARY_VERSION, "MIT", "host", 2, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "bvh v2", LIBRARY_VERSION, "MIT", "host", methods);
 }

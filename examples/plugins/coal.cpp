@@ -114,7 +114,5 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
 {
     static const bvhbench_method methods[] = {adapter::method<adapter::RefittedHostCollider<Coal>>(
         "coal", "DynamicAABBTreeCollisionManager: registerObjects, update and collide; one core")};
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "Coal", LIBRARY_VERSION, "BSD-3-Clause", "host", 1, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "Coal", LIBRARY_VERSION, "BSD-3-Clause", "host", methods);
 }

@@ -119,8 +119,6 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
             "cubql-spatial-median",
             "gpuBuilder with SPATIAL_MEDIAN, leaves of 1 triangle; fixedBoxQuery"),
         method<Builder::sah, 1>("cubql-sah", "sahBuilder, leaves of 1 triangle; fixedBoxQuery")};
-    static const std::string device = adapter::device_name();
-    static const bvhbench_plugin plugin{BVHBENCH_PLUGIN_ABI, "cuBQL", LIBRARY_VERSION, "Apache-2.0",
-                                        device.c_str(),      4,       methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "cuBQL", LIBRARY_VERSION, "Apache-2.0", adapter::device_name(),
+                           methods);
 }

@@ -98,8 +98,6 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
         adapter::method<adapter::RefittedCudaCollider<Culbvh>>(
             "culbvh",
             "LBVH of 64-byte nodes, refit, and the library's query of a tree against itself")};
-    static const std::string device = adapter::device_name();
-    static const bvhbench_plugin plugin{BVHBENCH_PLUGIN_ABI, "culbvh", LIBRARY_VERSION, "MIT",
-                                        device.c_str(),      1,        methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "culbvh", LIBRARY_VERSION, "MIT", adapter::device_name(),
+                           methods);
 }

@@ -6,6 +6,7 @@
 
 #include <bvhbench/plugin.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -126,6 +127,18 @@ inline void add_stage(bvhbench_stages& stages, const char* name, uint64_t begin_
                       bool on_device)
 {
     stages.stage[stages.count++] = {name, begin_ns, end_ns, on_device};
+}
+
+/// What bvhbench_plugin_entry of a library returns. Texts and methods must live as long as the library.
+template <std::size_t count>
+const bvhbench_plugin* plugin(uint32_t host_abi, const char* library, const char* version,
+                              const char* licence, const std::string& device,
+                              const bvhbench_method (&methods)[count])
+{
+    static const std::string kept_device = device;
+    static const bvhbench_plugin made{BVHBENCH_PLUGIN_ABI, library, version, licence,
+                                      kept_device.c_str(), count,   methods};
+    return host_abi == BVHBENCH_PLUGIN_ABI ? &made : nullptr;
 }
 
 }  // namespace adapter

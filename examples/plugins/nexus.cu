@@ -134,8 +134,6 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
         adapter::method<adapter::CudaCollider<Nexus<false>>>(
             "nexus-hploc-64",
             "H-PLOC over 64-bit Morton codes; a walk of this adapter finds the pairs")};
-    static const std::string device = adapter::device_name();
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "NexusBVH", LIBRARY_VERSION, "Apache-2.0", device.c_str(), 2, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "NexusBVH", LIBRARY_VERSION, "Apache-2.0",
+                           adapter::device_name(), methods);
 }

@@ -130,8 +130,6 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
         adapter::method<Optix<Over::triangles, true>>(
             "optix-updated",
             "optixAccelBuild over triangles, prefer fast build, allow update; no pairs")};
-    static const std::string device = adapter::device_name();
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "OptiX", LIBRARY_VERSION, "NVIDIA's own", device.c_str(), 3, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "OptiX", LIBRARY_VERSION, "NVIDIA's own",
+                           adapter::device_name(), methods);
 }

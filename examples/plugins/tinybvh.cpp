@@ -104,7 +104,5 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
         adapter::RefittedHostCollider<TinyBvh>>(
         "tinybvh",
         "BuildAVX from triangles, all cores, and Refit; a walk of this adapter finds the pairs")};
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "tinybvh", LIBRARY_VERSION, "MIT", "host", 1, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "tinybvh", LIBRARY_VERSION, "MIT", "host", methods);
 }

@@ -83,8 +83,6 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
                                                           "StacklessBVH: build and detect"),
         adapter::method<adapter::RefittedCudaCollider<Linear>>(
             "uipc-linear", "LinearBVH: build, update and query")};
-    static const std::string device = adapter::device_name();
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "libuipc", LIBRARY_VERSION, "Apache-2.0", device.c_str(), 2, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "libuipc", LIBRARY_VERSION, "Apache-2.0",
+                           adapter::device_name(), methods);
 }

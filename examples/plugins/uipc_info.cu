@@ -43,8 +43,6 @@ const bvhbench_plugin* bvhbench_plugin_entry(uint32_t host_abi)
 {
     static const bvhbench_method methods[] = {adapter::method<adapter::CudaCollider<InfoStackless>>(
         "uipc-info-stackless", "InfoStacklessBVH, all triangles of one body: build and detect")};
-    static const std::string device = adapter::device_name();
-    static const bvhbench_plugin plugin{
-        BVHBENCH_PLUGIN_ABI, "libuipc", LIBRARY_VERSION, "Apache-2.0", device.c_str(), 1, methods};
-    return host_abi == BVHBENCH_PLUGIN_ABI ? &plugin : nullptr;
+    return adapter::plugin(host_abi, "libuipc", LIBRARY_VERSION, "Apache-2.0",
+                           adapter::device_name(), methods);
 }
