@@ -16,7 +16,7 @@ from ranking import OF_QUERY, Ranking, Row
 from tables import three_digits
 
 MOST_ROWS = 15
-MOST_SCENES = 6
+MOST_SCENES = 8
 BYTES = (("tree", "tree_bytes", "#009E73"), ("scratch", "scratch_bytes", "#56B4E9"), ("query", "query_bytes", "#E69F00"),
          ("narrow phase", "narrow_bytes", "#D55E00"))
 # The name of each part of a frame, by its colour.

@@ -15,10 +15,10 @@ namespace {
 
 // To add an experiment, add its file to harness/experiments/ and its name here.
 constexpr std::string_view names[] = {
-    "table1",   "table4",   "fig8",      "fig13",   "peers",        "quality",   "orders",
-    "scaling",  "refit",    "equality",  "smoke",   "table2",       "table3",    "pairs",
-    "rebuild",  "families", "agreement", "native",  "native-pairs", "yardstick", "wide",
-    "roofline", "swept",    "skips",     "builders"};
+    "table1",   "table4",   "fig8",      "fig13",    "peers",        "quality",   "orders",
+    "scaling",  "refit",    "equality",  "smoke",    "table2",       "table3",    "pairs",
+    "rebuild",  "families", "agreement", "native",   "native-pairs", "yardstick", "wide",
+    "roofline", "swept",    "skips",     "builders", "rivals"};
 
 /// Reads the keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
@@ -30,11 +30,8 @@ void read_size(const Json& json, Experiment& experiment)
                 experiment.scenes.push_back(scene_name(scene));
         });
     }
-    if (json.contains("builders")) {
-        experiment.builders.clear();
-        read_list(json, "builders",
-                  [&](const Json& item) { experiment.builders.push_back(builder_choice(item)); });
-    }
+    if (json.contains("builders"))
+        experiment.builders = builder_choices(json);
     read_number(json, "samples", 1, most_samples, experiment.samples);
     read_number(json, "warm_up", 0, most_samples, experiment.warm_up);
 }

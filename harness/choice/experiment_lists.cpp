@@ -10,6 +10,8 @@
 namespace bvhbench {
 namespace {
 
+constexpr auto all_outside =
+    "outside";  ///< stands for all methods from outside, of which there may be none
 constexpr std::int64_t most_triangles = std::int64_t{1} << 31, most_sizes = 1 << 24;
 
 /// Returns the numbers of a list, or those that an object describes: at least 1, sorted, without repetitions.
@@ -42,13 +44,22 @@ std::set<std::int64_t> sizes_of(const Json& json, const std::string& key)
     return sizes;
 }
 
-/// Calls `add` with the value at `key`, or with each item if it is a list.
-void read_each(const Json& json, const char* key, const std::function<void(const Json&)>& add)
+/// Calls `add` with the value at `key`, or with each item if it is a list. In place of `all_outside` it calls it with each name of the
+/// catalog from outside.
+void read_each(const Json& json, const char* key, auto catalog,
+               const std::function<void(const Json&)>& add)
 {
+    const auto add_all = [&](const Json& item) {
+        if (item != all_outside)
+            return add(item);
+        for (const auto& entry : catalog)
+            if (entry.outside != nullptr)
+                add(entry.name);
+    };
     if (json[key].is_array())
-        read_list(json, key, add);
+        read_list(json, key, add_all);
     else
-        add(json[key]);
+        add_all(json[key]);
 }
 
 /// Reads a name, or an object of `name` and the options of `of`. `what` is "a builder" or "a collider".
@@ -82,13 +93,13 @@ std::vector<PipelineChoice> pipelines_of(const Json& json)
         throw BadUsage("a pipeline needs 'collider'");
     std::vector<BuilderChoice> builders;
     if (json.contains("builder"))
-        read_each(json, "builder",
+        read_each(json, "builder", builder_catalog(),
                   [&](const Json& item) { builders.push_back(builder_choice(item)); });
     else
         builders.push_back({.name = "none"});
     std::vector<PipelineChoice> choices;
     for (const BuilderChoice& builder : builders)
-        read_each(json, "collider",
+        read_each(json, "collider", collider_catalog(),
                   [&](const Json& item) { choices.push_back(pipeline_of(json, builder, item)); });
     return choices;
 }
@@ -145,6 +156,14 @@ BuilderChoice builder_choice(const Json& json)
     find_builder(choice.builder.name);
     check_choice(choice);
     return choice.builder;
+}
+
+std::vector<BuilderChoice> builder_choices(const Json& json)
+{
+    std::vector<BuilderChoice> choices;
+    read_each(json, "builders", builder_catalog(),
+              [&](const Json& item) { choices.push_back(builder_choice(item)); });
+    return choices;
 }
 
 std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick)

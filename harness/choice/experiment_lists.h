@@ -12,6 +12,9 @@ std::vector<std::string> scene_names(const Json& json);
 /// Reads a builder's name, or an object of its name and options.
 BuilderChoice builder_choice(const Json& json);
 
+/// Returns the builders of the list at `builders`.
+std::vector<BuilderChoice> builder_choices(const Json& json);
+
 /// Returns the tasks of an experiment with `pipelines`, one per scene.
 std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick);
 
