@@ -135,6 +135,8 @@ std::vector<std::string> scene_names(const Json& json)
 {
     if (json.is_string())
         return {json.get<std::string>()};
+    if (json == Json{{"scene", text_in(json, "scene")}, {"objects", "one"}})
+        return {text_at(json, "scene")};  // as one object, as builders take every scene
     if (!json.is_object() || json.size() != 2 || !json.contains("scene"))
         throw BadUsage("a scene is text, or an object of 'scene' and the sizes that it names");
     const std::string key =
