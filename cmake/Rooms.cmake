@@ -10,7 +10,8 @@
 # before it. "." is the room's folder itself.
 #
 # In a unity build (preset release) the sources of a folder are compiled as one, so names in their unnamed namespaces differ.
-# ALONE lists sources that are compiled alone there too: a test program has its own in place of them.
+# ALONE lists sources that are compiled alone there too: those that a test program has its own of, or that need what a program that
+# never calls them is not linked with.
 #
 # KERNELS lists all kernel files: .cl entry points and the headers that they include.
 # cmake/KernelChecks.cmake checks the syntax of each entry point.
