@@ -14,7 +14,7 @@ namespace bvhbench {
 namespace {
 
 // To add a format, add its line here, its number and type in geometry/box_side.h and its rounding in geometry/box_cells.h.
-constexpr BoxFormat catalog[] = {
+constexpr BoxFormat formats[] = {
     {"f32", "floats, as boxes are made", BOX_F32, 4},
     {"f64", "doubles: the same boxes in twice the bytes", BOX_F64, 8},
     {"f16", "halves from the middle of the scene, rounded outward", BOX_F16, 2},
@@ -85,11 +85,11 @@ uint number_at(const BoxFormat& format, std::span<const std::byte> stored, std::
 
 }  // namespace
 
-std::span<const BoxFormat> box_formats() { return catalog; }
+std::span<const BoxFormat> box_formats() { return formats; }
 
 const BoxFormat& find_box_format(std::string_view name)
 {
-    return find_called(catalog, name, "format of boxes");
+    return find_called(formats, name, "format of boxes");
 }
 
 BoxRounding BoxRounding::of_scene(const BoxFormat& format, const Aabb& scene)

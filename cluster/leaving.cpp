@@ -7,13 +7,13 @@
 namespace bvhbench {
 namespace {
 
-constexpr std::size_t first_capacity = 4096;  // triangles that leave; grows
+constexpr std::size_t leaving_at_first = 4096;  // triangles that leave; grows
 
 }  // namespace
 
 Leaving::Leaving(Programs& programs)
     : DeviceCollider(programs, {"leaving", "Triangles that meet boxes of other ranks"},
-                     {.capacity = first_capacity}, leaf_group_size, Wants::no_tree)
+                     {.capacity = leaving_at_first}, leaf_group_size, Wants::no_tree)
 {}
 
 void Leaving::want(const WantedBoxes& wanted, Queue& queue)

@@ -51,7 +51,7 @@ uint ordered_bits(float x)
 }
 
 /// Returns whole * share / of, rounded down.
-std::uint64_t share_of(std::uint64_t whole, uint share, uint of)
+std::uint64_t part_of_whole(std::uint64_t whole, uint share, uint of)
 {
     return whole / of * share + whole % of * share / of;
 }
@@ -157,7 +157,7 @@ private:
     std::uint64_t wanted(const Group& group) const
     {
         if (by_ == PartitionBy::rcb)
-            return share_of(group.weight, group.left(), group.parts);
+            return part_of_whole(group.weight, group.left(), group.parts);
         return curve_cut(triangles_, group.first + group.left(), parts_) -
                curve_cut(triangles_, group.first, parts_);
     }
@@ -253,7 +253,7 @@ std::uint64_t curve_cut(std::uint64_t triangles, uint part, uint parts)
     if (part == parts)
         return triangles;
     const std::uint64_t block = curve_block(triangles, parts);
-    return share_of(triangles / block, part, parts) * block;
+    return part_of_whole(triangles / block, part, parts) * block;
 }
 
 }  // namespace bvhbench

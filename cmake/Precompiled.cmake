@@ -2,7 +2,8 @@
 # precompile(<target> <name>), which also gives the options to the target's sources. Standard library headers and bindings are a
 # quarter of a source's compile time.
 #
-# Sources still include what they use: the presets dev and sanitize switch precompilation off and would not compile otherwise.
+# Sources still include what they use: the presets dev and sanitize switch precompilation and unity builds off and would not compile
+# otherwise.
 option(BVHBENCH_PRECOMPILE "Compile the headers of libraries once" ${PROJECT_IS_TOP_LEVEL})
 
 function(precompiled_headers name)

@@ -1,5 +1,5 @@
 # add_room(<name> [NEEDS <room>...] [OWNS <prefix>...] [LIBRARIES <target>...]
-#          [FLOORS <folder>...] [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...])
+#          [FLOORS <folder>...] [SOURCES <file>...] [ALONE <file>...] [HEADERS <file>...] [KERNELS <file>...])
 #
 # A room is a folder, a library and a rule. Its files include, by path from the source root, only their own headers and
 # those of the rooms in NEEDS. Headers of an external library (<CL/...>, <assimp/...>) are included only by rooms that OWN
@@ -9,12 +9,22 @@
 # FLOORS lists the folders of a large room, the lowest first. A file may include files of its own folder and of folders
 # before it. "." is the room's folder itself.
 #
+# In a unity build (preset release) the sources of a folder are compiled as one, so names in their unnamed namespaces differ.
+# ALONE lists sources that are compiled alone there too: those that a test program has its own of, or that need what a program that
+# never calls them is not linked with.
+#
 # KERNELS lists all kernel files: .cl entry points and the headers that they include.
 # cmake/KernelChecks.cmake checks the syntax of each entry point.
 function(add_room name)
-    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;FLOORS;SOURCES;HEADERS;KERNELS")
+    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;FLOORS;SOURCES;ALONE;HEADERS;KERNELS")
     if(room_SOURCES)
-        add_library(${name} STATIC ${room_SOURCES})
+        add_library(${name} STATIC ${room_SOURCES} ${room_ALONE})
+        set_target_properties(${name} PROPERTIES UNITY_BUILD_MODE GROUP)
+        foreach(source IN LISTS room_SOURCES)
+            get_filename_component(folder "${source}" DIRECTORY)
+            string(MAKE_C_IDENTIFIER "of_${folder}" group)
+            set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${group}")
+        endforeach()
         set(visibility PUBLIC)
         target_link_libraries(${name} PRIVATE project_flags)
         precompile(${name} precompiled)

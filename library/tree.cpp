@@ -143,7 +143,8 @@ void Tree::update(const Input& input, std::span<const Update> updates)
             throw BadUsage("there are " + std::to_string(updates.size()) + " updates, and " +
                            std::to_string(objects) + " objects");
         std::vector<TreeUpdate> wanted(updates.size());
-        std::transform(updates.begin(), updates.end(), wanted.begin(), internal);
+        std::transform(updates.begin(), updates.end(), wanted.begin(),
+                       [](Update update) { return internal(update); });
         own.renew(input, [&](const bvhbench::Input& taken) {
             own.builder->plan_update(wanted, own.device->queue);
             own.builder->update(taken, own.device->queue);

@@ -17,12 +17,11 @@ def tables_of(run: results.Run) -> list[dict[str, Any]]:
     rows = [row for there in builder_rows.of_run(run).values() for row in there]
     if not rows:
         return []
-    return [{"title": "Each builder, with its best collider", "cells": None, "rows": [values_of(row) for row in rows],
-             "note": "Peak: the most memory of the device that the cell held at once. Query and frame: medians with the collider whose "
-                     "frame is the soonest. docs/builders.md says what each column is.",
-             "libraries": [place for place, row in enumerate(rows) if report_cells.library_of(row.build)],
-             "columns": [{"label": label, "kind": kind, "facet": label in ("scene", "builder", "on", "collider"),
-                          **({"unit": "ms"} if kind == "time" else {})} for label, kind in COLUMNS]}]
+    return [report_cells.table(
+        "Each builder, with its best collider", COLUMNS, ("scene", "builder", "on", "collider"),
+        [values_of(row) for row in rows], [row.build for row in rows],
+        "Peak: the most memory of the device that the cell held at once. Query and frame: medians with the collider whose "
+        "frame is the soonest. docs/builders.md says what each column is.")]
 
 
 def values_of(row: Row) -> list[Any]:

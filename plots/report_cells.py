@@ -78,6 +78,15 @@ def library_of(cell: Cell) -> str | None:
     return next((LIBRARIES[word] for word in first if word in LIBRARIES), None)
 
 
+def table(title: str, columns: list[tuple[str, str]], facets: tuple[str, ...], rows: list[list[Any]], cells: list[Cell],
+          note: str) -> dict[str, Any]:
+    """Returns a table with these columns (label and kind), rows, and the cell that each row is of. Rows can be chosen by facets."""
+    return {"title": title, "cells": None, "rows": rows, "note": note,
+            "libraries": [row for row, cell in enumerate(cells) if library_of(cell)],
+            "columns": [{"label": label, "kind": kind, "facet": label in facets, **({"unit": "ms"} if kind == "time" else {})}
+                        for label, kind in columns]}
+
+
 def times_of(cell: Cell) -> dict[str, list[float]]:
     """Returns the quantiles of each stage and of the whole sample, from first start to last end."""
     if not cell.samples:

@@ -16,12 +16,10 @@ def tables_of(cells: Iterable[Cell]) -> list[dict[str, Any]]:
     found = savings.of_scenes(cells)
     if not found:
         return []
-    return [{"title": "Rules that skip work", "cells": None, "rows": [row_of(one) for one in found],
-             "note": "Frames of a scene together: times are means of medians, amounts are added up. Avoided: without the rule minus "
-                     "with it. Forced: the device does without the rule, and it was used all the same.",
-             "libraries": [row for row, one in enumerate(found) if report_cells.library_of(one.first)],
-             "columns": [{"label": label, "kind": kind, "facet": label in ("scene", "rule", "pipeline", "skipped"),
-                          **({"unit": "ms"} if kind == "time" else {})} for label, kind in COLUMNS]}]
+    return [report_cells.table(
+        "Rules that skip work", COLUMNS, ("scene", "rule", "pipeline", "skipped"), [row_of(one) for one in found], [one.first for one in found],
+        "Frames of a scene together: times are means of medians, amounts are added up. Avoided: without the rule minus "
+        "with it. Forced: the device does without the rule, and it was used all the same.")]
 
 
 def row_of(one: Saving) -> list[Any]:

@@ -4,6 +4,7 @@
 # Run some tests on a simulated device that checks every access and barrier. oclgrind exits with 0 whatever
 # it finds, so what counts is an empty log and the words of GoogleTest.
 set -eu
+export BVHBENCH_TESTS="${BVHBENCH_TESTS:-few}"  # tests/all_cases.h
 log=$1
 rm -f "$log"
 output=$(oclgrind --log "$log" "$2" --gtest_filter="$3" 2>&1) || true

@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr auto path = "builders/stages/gather.cl";
+constexpr auto gather_kernels = "builders/stages/gather.cl";
 constexpr uint cells_group_size = 64;
 
 bool has_doubles(const Device& device)
@@ -42,7 +42,7 @@ void GatherStage::plan(Arena& arena, const GatherPlace& place, const Buffer<Boun
     cells_ = arena.take<SceneCells>(format_.number != BOX_F32 ? 1 : 0, Use::tree);
     const bool groups = form_ == KernelForm::groups;
     const auto kernel = [&](const char* of_groups, const char* of_chunks) {
-        return programs_.kernel(path, groups ? of_groups : of_chunks,
+        return programs_.kernel(gather_kernels, groups ? of_groups : of_chunks,
                                 {{"BOX_FORMAT", format_.number},
                                  {"GROUP_SIZE", group_size_},
                                  {"SEVERAL_OBJECTS", place.slots.size() > 0 ? 1u : 0u}});

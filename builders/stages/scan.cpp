@@ -9,7 +9,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr auto path = "builders/stages/scan.cl";
+constexpr auto scan_kernels = "builders/stages/scan.cl";
 constexpr uint group_size = 256;
 constexpr uint values_per_item = 4;
 constexpr uint tile = values_per_item * group_size;
@@ -21,7 +21,7 @@ ScanStage::ScanStage(Programs& programs, KernelForm form)
 {
     const bool groups = form_ == KernelForm::groups;
     const auto kernel = [&](const char* name) {
-        return programs.kernel(path, name,
+        return programs.kernel(scan_kernels, name,
                                {{"GROUP_SIZE", group_size}, {"VALUES_PER_ITEM", values_per_item}});
     };
     sum_ = kernel(groups ? "sum_groups" : "sum_chunks");

@@ -14,7 +14,7 @@ namespace bvhbench {
 namespace {
 
 /// Number of entries (128 MiB) from which buffers grow by less: repeating a query costs less than the extra memory.
-constexpr std::size_t many = std::size_t{1} << 24;
+constexpr std::size_t many_entries = std::size_t{1} << 24;
 
 /// Bins per leaf for ordering; see leaf_front_bins.clh.
 constexpr std::size_t bins_per_leaf = 4;
@@ -89,8 +89,8 @@ private:
             list_parents_ = kernel("collide/front/front_parents.cl", "list_parents");
             cut_off_roots_ = kernel("collide/front/front_parents.cl", "cut_off_roots");
         }
-        front_room_ = first_room(std::clamp<std::size_t>(16 * std::size_t{triangles_}, 1024,
-                                                         std::max<std::size_t>(triangles_, many)));
+        front_room_ = first_room(std::clamp<std::size_t>(
+            16 * std::size_t{triangles_}, 1024, std::max<std::size_t>(triangles_, many_entries)));
         plan_.reset();
     }
 
@@ -130,8 +130,8 @@ private:
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& sizes) override
     {
         const std::uint64_t front = sizes.front();
-        if (!had_room(front_room_, front, front / (front < many ? 4 : 16), sizeof(Pair), device(),
-                      "entries of a front"))
+        if (!had_room(front_room_, front, front / (front < many_entries ? 4 : 16), sizeof(Pair),
+                      device(), "entries of a front"))
             return false;
         plan_.complete(static_cast<uint>(front), sizes[(DESCENTS_COUNT - QUEUES_COUNT) / 2]);
         return true;

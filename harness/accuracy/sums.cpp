@@ -70,7 +70,7 @@ long double cost_by(const HostTree& tree)
 }
 
 // Plain, pairwise and compensated sums, in float and in double. To add a method, add its line here.
-constexpr SumMethod catalog[] = {
+constexpr SumMethod methods[] = {
     {"f32", cost_by<float, PlainSum>},
     {"f32-pairwise", cost_by<float, PairwiseSum>},
     {"f32-compensated", cost_by<float, CompensatedSum>},
@@ -104,7 +104,7 @@ void settle(const SumMethod& method, const HostTree& tree, long double right, Qu
 
 }  // namespace
 
-std::span<const SumMethod> sum_methods() { return catalog; }
+std::span<const SumMethod> sum_methods() { return methods; }
 
 long double cost_in_long_double(const HostTree& tree)
 {

@@ -18,7 +18,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr std::size_t sample_size = 10'000;  ///< triangles that are held against all others
+constexpr std::size_t judged_triangles = 10'000;  ///< triangles that are held against all others
 
 PairFacts contacts_of_all(const ClusterPart& part, Ranks& ranks)
 {
@@ -104,7 +104,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
             by_one_device =
                 fits_one_device(part, result.pairs, triangles[0], session.device(), ranks);
         if (!by_one_device) {
-            const TriangleSample sample(triangles[0], sample_size);
+            const TriangleSample sample(triangles[0], judged_triangles);
             evidence.of_sample = pairs_at_first(ranks, part.frame.pairs_of(sample));
             evidence.right_of_sample = pairs_at_first(ranks, part.frame.right_pairs_of(sample));
         }

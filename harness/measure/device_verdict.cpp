@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t sample_size = 10'000;
 
-std::string text_of(const PairFacts& facts)
+std::string told(const PairFacts& facts)
 {
     return std::to_string(facts.count) + " pairs of the hash " + hex(facts.low) + hex(facts.high);
 }
@@ -46,9 +46,9 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
 
     Check check = {.verdict = Check::Verdict::agrees,
                    .against = other.name + ", brute over a sample",
-                   .detail = "too many to list: " + text_of(facts)};
+                   .detail = "too many to list: " + told(facts)};
     if (others != facts)
-        check.find_wrong(other.name + " found " + text_of(others));
+        check.find_wrong(other.name + " found " + told(others));
     if (of_sample != right || of_sample.surplus() > 0)
         check.find_wrong("brute force found " + std::to_string(right.size()) +
                          " pairs with one of " + std::to_string(sample.ids().size()) +

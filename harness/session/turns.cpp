@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 constexpr auto longest_wait = 120s;
 constexpr auto longest_yield = 20ms;  // afterwards the other runs are taken to be finished
 
-std::vector<std::string> lines_of(const std::string& path)
+std::vector<std::string> lines_in(const std::string& path)
 {
     std::vector<std::string> lines;
     std::ifstream file(path);
@@ -37,7 +37,7 @@ std::vector<std::string> lines_of(const std::string& path)
 Turns::Turns(std::string path, int count, std::string id)
     : path_(std::move(path)), count_(count), id_(std::move(id))
 {
-    if (lines_of(path_).size() >= static_cast<std::size_t>(count_))
+    if (lines_in(path_).size() >= static_cast<std::size_t>(count_))
         throw BadUsage("--turns: " + path_ +
                        " has been used by others; name a file that is not there");
     descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
@@ -67,7 +67,7 @@ bool Turns::all_come()
     ++meetings_;
     const auto start = std::chrono::steady_clock::now();
     for (;;) {
-        const std::vector<std::string> lines = lines_of(path_);
+        const std::vector<std::string> lines = lines_in(path_);
         if (lines.size() >=
             static_cast<std::size_t>(count_) * static_cast<std::size_t>(meetings_)) {
             others_.insert(lines.begin(), lines.end());
@@ -92,7 +92,7 @@ Turns::Turn::Turn(Turns* turns) : turns_(turns)
     lock();
     // flock prefers the process that has just released the lock, because the waiting ones must first wake up. So yield to them.
     const auto start = std::chrono::steady_clock::now();
-    while (lines_of(last_file) == std::vector{turns_->id_} &&
+    while (lines_in(last_file) == std::vector{turns_->id_} &&
            std::chrono::steady_clock::now() - start < longest_yield) {
         flock(turns_->descriptor_, LOCK_UN);
         std::this_thread::sleep_for(200us);

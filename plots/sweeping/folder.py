@@ -81,8 +81,9 @@ class Folder:
                     "together": "scene" if together else "cell"}
             output.write(self.path / "plan.json", (json.dumps(plan, indent=1) + "\n").encode())
         if shard.is_all:
-            for left in (self.path / "cells").glob("*.json.tmp*"):  # left by processes that were killed while writing
-                left.unlink(missing_ok=True)
+            for name in ("plan.json", self.result_file.name, "cells/*.json", "experiments/*.json"):
+                for left in self.path.glob(f"{name}.tmp*"):  # by processes that were killed while writing
+                    left.unlink(missing_ok=True)
 
     def check_plan(self, plan: dict[str, Any], units: list[Unit], keeps_other_commit: bool) -> None:
         missing = set(plan["units"]) - {unit.what for unit in units}

@@ -20,7 +20,7 @@ namespace {
 constexpr uint segments = 32;
 constexpr float root_radius = 0.2f;
 constexpr float step = 0.045f;
-constexpr float thickness = 0.002f;
+constexpr float hair_thickness = 0.002f;
 
 Point normalised(Point a)
 {
@@ -39,9 +39,9 @@ void add_ring(Mesh& mesh, Point centre, Point direction)
 {
     const Point u = across(direction);
     const Point v = cross(direction, u);
-    mesh.points.push_back(centre + thickness * u);
-    mesh.points.push_back(centre + (-0.5f * thickness) * u + (0.866f * thickness) * v);
-    mesh.points.push_back(centre + (-0.5f * thickness) * u + (-0.866f * thickness) * v);
+    mesh.points.push_back(centre + hair_thickness * u);
+    mesh.points.push_back(centre + (-0.5f * hair_thickness) * u + (0.866f * hair_thickness) * v);
+    mesh.points.push_back(centre + (-0.5f * hair_thickness) * u + (-0.866f * hair_thickness) * v);
 }
 
 void add_segment(Mesh& mesh, uint ring)

@@ -23,6 +23,7 @@
 #include "harness/judge/hard_inputs.h"
 #include "harness/session/session.h"
 #include "scenes/catalog.h"
+#include "tests/all_cases.h"
 
 namespace bvhbench {
 
@@ -132,14 +133,27 @@ inline bool shares_vertices(const Mesh& mesh)
 }
 
 /// Returns the builders whose trees are in device memory.
-inline std::vector<BuilderEntry> device_builders()
+inline const std::vector<BuilderEntry>& device_builders()
 {
-    std::vector<BuilderEntry> builders;
-    for (const BuilderEntry& entry : builder_catalog())
-        if (entry.make != nullptr && !entry.name.ends_with("-reference") &&
-            entry.make(session().programs(), {})->card().runs == BuilderCard::Runs::on_device)
-            builders.push_back(entry);
-    return builders;
+    static const std::vector<BuilderEntry> all = [] {
+        std::vector<BuilderEntry> builders;
+        for (const BuilderEntry& entry : builder_catalog())
+            if (entry.make != nullptr && !entry.name.ends_with("-reference") &&
+                entry.make(session().programs(), {})->card().runs == BuilderCard::Runs::on_device)
+                builders.push_back(entry);
+        return builders;
+    }();
+    return all;
+}
+
+/// True for the first builder of each tree. Others build the same tree (their tests compare it), so colliders over them have fewer
+/// cases.
+inline bool is_first_of_its_tree(const BuilderEntry& builder)
+{
+    const std::vector<BuilderEntry>& all = device_builders();
+    return std::find_if(all.begin(), all.end(), [&](const BuilderEntry& other) {
+               return other.oracle == builder.oracle;
+           })->name == builder.name;
 }
 
 /// Returns the colliders that find pairs of overlapping boxes: only those that query a builder's tree, or all.

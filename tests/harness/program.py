@@ -24,6 +24,7 @@ except ImportError:
 PROGRAM, SCHEMA = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 SOURCE = SCHEMA.parents[2]
 ROOMS_OF_KERNELS = ("baselines", "builders", "cluster", "collide", "device", "geometry", "library", "oibvh")
+ALL_CASES = os.environ.get("BVHBENCH_TESTS") == "all"  # .ci/nightly; tests/all_cases.h
 KEPT = "bvhbench: stopped; finished cells are kept\n"
 _validator = jsonschema and jsonschema.Draft202012Validator(json.loads(SCHEMA.read_text()))
 

@@ -17,18 +17,21 @@ import tempfile
 CMAKE, NINJA, BUILD, ROOT, COMPILER = sys.argv[1:6]
 OTHERS = ("assimp", "benchmark", "nlohmann_json", "CLI11", "embree", "fcl", "CGAL", "GTest", "Boost", "TBB", "Eigen3", "MPI")
 ROOMS = ("geometry", "device", "builders", "oibvh", "collide", "library")
+TOGETHER = re.compile(r'^#include "(.*)"$', re.MULTILINE)
 # Headers directly in /usr/include can be included even if their package was not requested.
 SYSTEM = re.compile(r"^/usr/(?:include/(?:c\+\+/|x86_64-linux-gnu/|\w+-linux-gnu/|CL/|linux/|asm-generic/|[\w-]+\.h$|"
                     r"(?:bits|sys|gnu|rpc)/)|lib/|local/lib/)")
 
 
 def sources_of(commands: pathlib.Path) -> dict[str, str]:
-    """Returns the compile command of each source in the library's rooms, by its path from the source root."""
+    """Returns the compile command of each source in the library's rooms, by its path from the source root. Sources that are compiled
+    as one are included by a file of CMake's."""
     found = {}
     for command in json.loads(commands.read_text()):
         path = pathlib.Path(command["file"])
-        if path.is_relative_to(ROOT) and path.relative_to(ROOT).parts[0] in ROOMS:
-            found[path.relative_to(ROOT).as_posix()] = command["command"]
+        for source in map(pathlib.Path, TOGETHER.findall(path.read_text())) if path.parent.name == "Unity" else [path]:
+            if source.is_relative_to(ROOT) and source.relative_to(ROOT).parts[0] in ROOMS:
+                found[source.relative_to(ROOT).as_posix()] = command["command"]
     return found
 
 
@@ -46,7 +49,7 @@ def strange_headers() -> list[str]:
             path = (pathlib.Path(BUILD) / line.strip()).resolve()
             if not path.is_relative_to(ROOT) and not SYSTEM.match(line.strip()):
                 strange.add(line.strip())
-    assert objects > 40, f"{objects} objects of the rooms: this test looks in the wrong place"
+    assert objects >= 10, f"{objects} objects of the rooms: this test looks in the wrong place"
     return sorted(strange)
 
 

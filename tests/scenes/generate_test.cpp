@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EachMovingGenerator, testing::ValuesIn(all_that
 TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
 {
     const uint least = GetParam().least;
-    std::vector<uint> more = {0, 1, 2, 3, 30, 77, 501};
+    std::vector<uint> more = {0, 1, 30, 501};
     if (!GetParam().moves) {
         more = {999, 1022, 1023, 1024, 65534, 144045, 412668};
         more.resize(more.size() + 300);
@@ -67,8 +67,8 @@ TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
 
 TEST_P(EachGenerator, MakesTheSameTwiceAndTheSameMotionForAnyNumberOfFrames)
 {
-    for (const std::size_t count : {1u, 7u, 2000u}) {
-        if (GetParam().moves && count != 2000)
+    for (const std::size_t count : {1u, 7u, 1000u}) {
+        if (GetParam().moves && count != 1000)
             continue;
         const Scene first = generated(GetParam(), count, 4);
         EXPECT_EQ(first.content_hash, generated(GetParam(), count, 4).content_hash);
@@ -103,7 +103,7 @@ TEST_P(EachGenerator, NamesItsObjectsAndRepeatsNoTriangleAndNoCorner)
 // Coordinates outside of the stage would mean an unstable simulation. Loading refuses coordinates that are not finite.
 TEST_P(EachMovingGenerator, StaysOnItsStageWhateverItsSize)
 {
-    for (const std::size_t count : {310u, 5000u}) {
+    for (const std::size_t count : {310u, 3000u}) {
         const Scene scene = generated(GetParam(), count, 5);
         for (const std::vector<Point>& frame : scene.frames) {
             const Aabb box = box_of(frame);

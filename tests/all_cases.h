@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+//
+// How many cases tests of many combinations take, by the variable BVHBENCH_TESTS: "all" at night (.ci/nightly); "few" on a simulated
+// device, which takes seconds to compile (tests/oclgrind.sh); otherwise each value of each parameter, but not each with each.
+#pragma once
+
+#include <cstdlib>
+#include <string_view>
+
+namespace bvhbench {
+
+inline bool tests_take(std::string_view how_many)
+{
+    const char* value = std::getenv("BVHBENCH_TESTS");
+    return value != nullptr && value == how_many;
+}
+
+inline bool takes_all_cases() { return tests_take("all"); }
+inline bool takes_few_cases() { return tests_take("few"); }
+
+}  // namespace bvhbench
