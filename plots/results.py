@@ -150,21 +150,30 @@ def document_of(path: pathlib.Path) -> dict[str, Any]:
 
 
 def load(path: pathlib.Path) -> Run:
-    """Reads a result file. Raises Refused for another format and for a cell with a wrong answer."""
+    """Reads a result file. Raises Refused for another format and for a cell of ours with a wrong answer; a method from outside has
+    failed then."""
     document = document_of(path)
     devices = sorted({f"{source['device']}, driver {source['driver']}" for source in document.get("merged_from", [])})
     if len(devices) > 1:
         raise Refused(f"{path}: merged from several devices, which no figure tells apart: {'; '.join(devices)}")
     for hook, value in document["run"].get("test_hooks", {}).items():
         raise Refused(f"{path}: made under the test hook {hook}={value}: it is no result")
-    return Run(path, document, [cell_of(path, cell) for cell in document["cells"] if cell["status"] == "measured"],
-               [Cell(cell) for cell in document["cells"] if cell["status"] != "measured"])
+    cells = [failed_if_wrong(cell) for cell in document["cells"]]
+    return Run(path, document, [cell_of(path, cell) for cell in cells if cell["status"] == "measured"],
+               [Cell(cell) for cell in cells if cell["status"] != "measured"])
 
 
 def everything(path: str | os.PathLike[str]) -> Run:
     """Reads a result file, including what must not be plotted: wrong answers, merged devices, runs under test hooks. Raises
     Refused if the file is not a result file."""
     return Run(pathlib.Path(path), documents.read(os.fspath(path)))
+
+
+def failed_if_wrong(raw: dict[str, Any]) -> dict[str, Any]:
+    """Returns the cell of a method from outside whose answer is wrong as one that failed, any other as it is."""
+    if "outside" in raw and raw.get("check", {}).get("verdict") == "differs":
+        return raw | {"status": "failed", "reason": f"wrong answer: {raw['check'].get('detail', 'no detail given')}"}
+    return raw
 
 
 def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:

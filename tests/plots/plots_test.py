@@ -223,6 +223,18 @@ class Frames(InFolder):
                 self.assertIn("pair 7", done.stderr)
                 self.assertFalse((self.folder / "out").exists())
 
+    def test_a_wrong_answer_from_outside_is_a_failure_beside_the_others(self) -> None:
+        document = golden("families")
+        for cell in document["cells"]:
+            cell["experiment"] = "rivals"
+        wrong = document["cells"][3]
+        wrong["check"] = {"verdict": "differs", "detail": "pair 7"}
+        wrong["outside"] = {"name": wrong["collider"]["name"], "library": "Mine", "version": "1", "licence": "MIT", "device": "host",
+                            "file": "mine.so", "as": "plugin"}
+        text = self.drawn("family_bars.py", "rivals", document)
+        self.assertIn("wrong answer: pair 7", text)
+        self.assertIn("written pairs of overlapping boxes", text)
+
     def test_a_file_without_frames_makes_no_picture(self) -> None:
         for script in ("table2.py", "fig9.py", "fig10.py", "frames.py"):
             done = self.made(script, GOLDEN / "table1.json", "--out", self.folder / "out", code=3)
