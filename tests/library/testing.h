@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "collide/oracles/box_pairs.h"
@@ -67,8 +69,21 @@ struct Caller {
 
     const std::vector<cl_mem>& buffers() const { return buffers_; }
 
-    /// Returns the sum of the reference counts of the queue, the context and all buffers.
+    /// Returns the sum of the reference counts of the queue, the context and all buffers, once it has stopped changing: PoCL drops
+    /// those of commands that have ended a little later, on a thread of its own.
     cl_uint references() const
+    {
+        for (cl_uint last = references_now();;) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            const cl_uint now = references_now();
+            if (now == last)
+                return now;
+            last = now;
+        }
+    }
+
+private:
+    cl_uint references_now() const
     {
         cl_uint of_queue = 0, of_context = 0, of_buffers = 0;
         clGetCommandQueueInfo(queue, CL_QUEUE_REFERENCE_COUNT, sizeof of_queue, &of_queue, nullptr);
@@ -82,7 +97,6 @@ struct Caller {
         return of_queue + of_context + of_buffers;
     }
 
-private:
     std::vector<cl_mem> buffers_;
 };
 
