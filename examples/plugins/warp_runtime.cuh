@@ -19,7 +19,8 @@ using adapter::check;
 }
 
 bool ContextGuard::always_restore = false;
-CudaTimingState* g_cuda_timing_state = nullptr;
+static CudaTimingState no_timing(0, nullptr);  // every launch reads its flags
+CudaTimingState* g_cuda_timing_state = &no_timing;
 
 CUcontext get_current_context() { return nullptr; }
 CUresult cuCtxGetCurrent_f(CUcontext*) { not_here("a context"); }
