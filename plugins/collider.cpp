@@ -35,6 +35,7 @@ public:
     {
         state_.reset();
         found_.reset();
+        count_.reset();
         state_.hold(input);
         if (!refits_)
             return;
@@ -47,7 +48,8 @@ public:
     void query(const Tree*, const Input& input, Queue& queue) override
     {
         found_.reset();
-        state_.hold(input);
+        if (state_.hold(input))
+            count_.reset();
         queue.cl().finish();  // nothing else runs beside it
         if (offer_.method.builds)
             state_.run(refits_ ? "refit" : "build", queue);
@@ -57,7 +59,7 @@ public:
     QueryCounts counts(const Queue&) const override
     {
         QueryCounts counts;
-        counts.pairs = found().size();
+        counts.pairs = count_ ? *count_ : found().size();
         counts.more = {{"round_trip_ns", static_cast<std::uint64_t>(state_.round_trip_ns())}};
         return counts;
     }
@@ -79,8 +81,10 @@ private:
     /// Fetches the pairs of the last query, once.
     const std::vector<Pair>& found() const
     {
-        if (!found_)
+        if (!found_) {
             found_ = state_.pairs();
+            count_ = found_->size();
+        }
         return *found_;
     }
 
@@ -90,6 +94,8 @@ private:
     const Device& device_;
     mutable State state_;
     mutable std::optional<std::vector<Pair>> found_;
+    /// Of the frame, as last fetched: to fetch millions of pairs after each sample would take longer than to find them.
+    mutable std::optional<std::size_t> count_;
     DevicePairs copied_;
 };
 

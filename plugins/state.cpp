@@ -70,7 +70,7 @@ void State::start(const Input& input)
     }
 }
 
-void State::hold(const Input& input)
+bool State::hold(const Input& input)
 {
     if (input.is_swept())
         throw BadUsage("a method from outside takes the triangles of one moment: " + method_.name +
@@ -79,10 +79,11 @@ void State::hold(const Input& input)
         (!points_.empty() && points_.size() != input.points.size()))
         start(input);
     if (!points_.empty() && are_equal(points_, input.points))
-        return;
+        return false;
     const MemoryFile file(bytes_of(input.points));
     process_->ask({{"call", "load"}, {"points", file.path()}});
     points_.assign(input.points.begin(), input.points.end());
+    return true;
 }
 
 void State::run(std::string_view call, Queue& queue)

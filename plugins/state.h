@@ -19,8 +19,9 @@ public:
         : library_(library), method_(method), limits_(limits)
     {}
 
-    /// Gives the process this frame, unless it has it: its mesh by `prepare`, its points by `load`. Not timed.
-    void hold(const Input& input);
+    /// Gives the process this frame, unless it has it: its mesh by `prepare`, its points by `load`. Returns whether the frame is a new
+    /// one. Not timed.
+    bool hold(const Input& input);
 
     /// Runs `build`, `refit` or `query`, and adds its stages and the time of the call to the queue.
     void run(std::string_view call, Queue& queue);

@@ -100,13 +100,13 @@ def test_it_stands_in_lists_and_in_other_commands():
            "--colliders", "halves,group", says="halves")
     assert any("outside" in cell for cell in valid("best.json")["cells"])
     expect(0, "show", "swept/sweep.json", says="halves, from outside: Halves 1.0 (MIT) by " + pathlib.Path(GOOD).name + ", on host")
-    expect(0, "compare", "swept/sweep.json", "swept/sweep.json", says="2 cells: ")
+    expect(0, "compare", "swept/sweep.json", "swept/sweep.json", "--allow-dirty", says="2 cells: ")
     expect(0, "report", "swept/sweep.json", "-o", "page.html")
     assert "halves: Halves 1.0 (MIT) by " in pathlib.Path("page.html").read_text()
     other = json.loads(pathlib.Path("swept/sweep.json").read_text())
     other["cells"][0]["outside"]["version"] = "1.1"
     pathlib.Path("other.json").write_text(json.dumps(other))
-    expect(0, "compare", "swept/sweep.json", "other.json", says="from outside: Halves 1.1 (MIT)")
+    expect(0, "compare", "swept/sweep.json", "other.json", "--allow-dirty", says="from outside: Halves 1.1 (MIT)")
 
 
 CALLS = {  # fault of the library: what the sentence of the builder's cell says
