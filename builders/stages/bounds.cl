@@ -90,16 +90,42 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_objects
         result[objects[k]] = bounds;
 }
 
-/// Writes the boxes of faces `first` to `end` - 1, by one work-item. Returns their bounds.
+/// Returns three coordinates, on which a processor works at once.
+static inline float3 at(global const Point* points, const uint vertex)
+{
+    return vload3(vertex, (global const float*)points);
+}
+
+/// Writes the boxes of faces `first` to `end` - 1, by one work-item. Returns their bounds. The sums are those of box_of_face() and
+/// grown().
 static inline Bounds make_run(POINTS_PARAMETERS(), global const Face* faces, global Aabb* boxes,
                               const uint first, const uint end)
 {
-    Bounds bounds = empty_bounds();
+    float3 low = (float3)(MOST_SIDE), high = (float3)(LEAST_SIDE), low_centre = low,
+           high_centre = high;
     for (uint k = first; k < end; ++k) {
-        const Aabb box = box_of_face(POINTS, faces[k]);
-        boxes[k] = box;
-        bounds = grown(bounds, box);
+        const Face face = faces[k];
+        const float3 a = at(points, face.a), b = at(points, face.b), c = at(points, face.c);
+        float3 box_low = min(min(a, b), c), box_high = max(max(a, b), c);
+#if SWEPT
+        const float3 d = at(end_points, face.a), e = at(end_points, face.b),
+                     f = at(end_points, face.c);
+        box_low = min(box_low, min(min(d, e), f));
+        box_high = max(box_high, max(max(d, e), f));
+#endif
+        box_low += 0.0f;
+        box_high += 0.0f;
+        const float3 centre = 0.5f * box_low + 0.5f * box_high + 0.0f;
+        vstore3(box_low, 2ul * k, (global float*)boxes);
+        vstore3(box_high, 2ul * k + 1ul, (global float*)boxes);
+        low = min(low, box_low);
+        high = max(high, box_high);
+        low_centre = min(low_centre, centre);
+        high_centre = max(high_centre, centre);
     }
+    const Bounds bounds = {
+        {low.x, low.y, low.z, high.x, high.y, high.z},
+        {low_centre.x, low_centre.y, low_centre.z, high_centre.x, high_centre.y, high_centre.z}};
     return bounds;
 }
 
