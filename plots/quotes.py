@@ -15,6 +15,7 @@ import pathlib
 import re
 import runpy
 import sys
+import types
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
@@ -197,6 +198,11 @@ def filled(old: str, value: float | str) -> str:
 
 def lists() -> list[pathlib.Path]:
     return sorted((ROOT / "results" / "quotes").rglob("*.py"))
+
+
+def listed(name: str) -> types.SimpleNamespace:
+    """Returns the names of another document's list: "docs/collisions"."""
+    return types.SimpleNamespace(**runpy.run_path(str(ROOT / "results" / "quotes" / f"{name}.py")))
 
 
 def read(path: pathlib.Path) -> Document:

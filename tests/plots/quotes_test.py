@@ -2,6 +2,7 @@
 """Tests that numbers in documents are those of the result files that they come from (plots/quotes.py)."""
 import json
 import pathlib
+import re
 import unittest
 
 from base import ROOT, InFolder  # first: it adds plots to sys.path
@@ -28,6 +29,16 @@ class TheDocuments(unittest.TestCase):
         without = {str(path.relative_to(ROOT)) for path in paths
                    if path not in listed and quotes.RESULT.search(path.read_text(encoding="utf-8"))}
         self.assertEqual(without, NO_NUMBER_OF_A_FILE)
+
+    def test_of_the_paper_have_a_verdict_and_a_command_for_each_claim(self) -> None:
+        text = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+        rows = re.findall(r"^\| (.*) \|$", text[text.index("## Claims"):text.index("## Index")], re.MULTILINE)[2:]
+        self.assertGreaterEqual(len(rows), 26)
+        for claim, printed, ours, verdict, command in (row.split(" | ") for row in rows):
+            self.assertRegex(verdict, "^(holds|holds in part|holds rarely|does not hold|not tested)\\b", claim)
+            self.assertTrue(command != "none" or verdict.startswith("not tested: "), claim)
+            for name in re.findall(r"`bvhbench (?:run|reproduce) ([\w-]+)`", command):
+                self.assertTrue((ROOT / "harness" / "experiments" / f"{name}.json").is_file(), claim)
 
     def test_have_no_new_number_without_a_file(self) -> None:
         known, found = json.loads(quotes.LOOSE_COUNTS.read_text(encoding="utf-8")), quotes.loose_counts(self.documents)
