@@ -82,6 +82,11 @@ def findings_of_table2(doc: Document) -> None:
     doc.says("takes {} and {} of the time of the best front over a radix tree on two scenes, {} and {} on the two others", *low)
     doc.says("takes {} to {} of the time of that pipeline, and {} to {} of that of `block`",
              *(end for other in (BVTT, BLOCK) for end in (min(ratios(times, "front", other)), max(ratios(times, "front", other)))))
+    steps = {asked: {cell.samples[0]["broad"]["launches"] for scene in TABLE2.values() for cell in file.frames(scene, asked)[1:]}
+             for asked in (FRONT, *RADIX)}
+    front, leaf = steps[FRONT] | steps[RADIX[0]] | steps[RADIX[2]], steps[RADIX[1]] | steps[RADIX[3]]
+    doc.says("launches {} to {}, and `front-leaf` {} in a frame that keeps its front and {} in one that maintains it", min(front), max(front),
+             *sorted(leaf)[:2])  # a frame that makes a new tree takes more
     fresh, refits = ratios(times, FRESH, "front over apetrei-fused"), ratios(times, REFIT, "front over apetrei-fused")
     doc.says("a fresh one in every frame takes {} to {} times as long as `front` over the same tree", fresh[0], fresh[-1])
     doc.says("Refits alone, without a front, take {} to {} of its time", refits[0], refits[-1])
