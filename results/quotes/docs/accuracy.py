@@ -1,4 +1,5 @@
-from quotes import Document, File, us
+from cells import Cell
+from quotes import Document, File, query_us, tree_us, us
 
 POCL, H200 = "pocl-2-cores", "h200"
 METHODS = ("filter-f64+exact", "guigue-f64", "guigue-f32", "moller-f32")
@@ -25,6 +26,12 @@ def narrow(doc: Document) -> None:
     ns = [us(generic.cell("generic", f"narrow, {method}")) * 1e3 / generic.cell("generic", f"narrow, {method}").counters["pairs_count"]
           for method in METHODS]
     doc.says("the default takes {} ns per pair and `guigue-f64` {}\n([", *ns[:2])
+    gpu = File(f"{H200}/accuracy-narrow")
+    times = {method: {scene: us(gpu.cell(scene, f"narrow, {method}")) for scene in classes} for method in METHODS}
+    worst = times[METHODS[0]]["hairs_breadth"] / times["guigue-f64"]["hairs_breadth"]
+    floats = [times["guigue-f32"][scene] / times["guigue-f64"][scene] for scene in classes]
+    doc.says("`hairs_breadth`, the worst, {} times. Doubles cost next to nothing on this GPU: `guigue-f32` takes {}\nto {} of the time", worst,
+             min(floats), max(floats))
     own = [us(file.cell("generic", f"narrow, {method}")) * 1e3 / 217391 for method in METHODS]
     doc.says("On `generic` the default takes {} ns per pair and `guigue-f64` {}", *own[:2])
 
@@ -51,6 +58,25 @@ def codes(doc: Document) -> None:
             equal = ("", "") if method in ("kd", "radix") else (counters["duplicates_count"], counters["longest_run_count"])
             doc.says(f"| {label if place == 0 else ''} | {name} |".replace("|  |", "| |") + (" | |" if equal[0] == "" else " {} | {} |") + " {} | {} |",
                      *(value for value in equal if value != ""), counters["sah_cost"], counters["box_tests_count"])
+
+
+def when_medians_pay(doc: Document) -> None:
+    """After how many queries by `leaf` the longer build of `kd` has paid."""
+    doc.under("## Codes")
+    scenes = ("torus:100000", "hairball:100000", "outlier:sphere:100000:0:1000")
+
+    def both(machine: str, scene: str) -> tuple[Cell, Cell]:
+        file = File(f"{machine}/accuracy-codes")
+        return file.cell(scene, "codes, hilbert30"), file.cell(scene, "codes, kd")
+
+    def pays(machine: str, scene: str) -> float:
+        plain, kd = both(machine, scene)
+        return (tree_us(kd) - tree_us(plain)) / (query_us(plain) - query_us(kd))
+
+    doc.says("has paid for its build after {}\n  queries on the torus, {} on the hairball and {} with the outlier", *(pays(POCL, scene) for scene in scenes))
+    shares = [query_us(both(H200, scene)[0]) / tree_us(both(H200, scene)[0]) for scene in scenes[:2]]
+    doc.says("takes {} (torus) and {}\n  (hairball) times as long as the build, it pays after {} and {} queries", *shares,
+             *(pays(H200, scene) for scene in scenes[:2]))
 
 
 def inputs(doc: Document) -> None:
@@ -94,5 +120,5 @@ def boxes(doc: Document) -> None:
 
 
 def quotes(doc: Document) -> None:
-    for part in (narrow, sums, codes, inputs, boxes):
+    for part in (narrow, sums, codes, when_medians_pay, inputs, boxes):
         part(doc)

@@ -20,3 +20,7 @@ def quotes(doc: Document) -> None:
     doc.says("bunny ({} and {} ms)", *(rows["bunny", builder].query_ns * 1e-6 for builder in ("hploc", "apetrei-fused")))
     slower = [rows[scene, "apetrei-fused"].rate("hierarchy") / rows[scene, "hploc"].rate("hierarchy") for scene in dict.fromkeys(scene for scene, _ in rows)]
     doc.says("takes {} to {} times that of\n  `apetrei-fused`", min(slower), max(slower))
+    device = [row.build.median_ns() * 1e-6 for row in rows.values() if not row.build.on_host]
+    host = [row.build.median_ns() * 1e-6 for row in rows.values() if row.build.on_host and row.build.builder != "oibvh-host"]
+    doc.says("Builders on the host take {} to {} ms", min(host), max(host))
+    doc.says("where those on the device take {} to {}.", min(device), max(device))

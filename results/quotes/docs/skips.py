@@ -33,3 +33,5 @@ def quotes(doc: Document) -> None:
         pairs = [[cell for cell in near.cells if dict(cell.collider_options).get("no_skip", "") == off] for off in ("", "near")]
         shares = [us(one) / us(other) for one, other in zip(*pairs)]
         doc.says(text, min(shares), max(shares))
+    forced = [1 / savings.times(one) for one in found["h200"] if one.rule == "near" and one.is_forced and one.skips_something]
+    doc.says("`near` would cost {} to {} times the frame", min(forced), max(forced))
