@@ -25,7 +25,8 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
           "narrow": ("collide/narrow/",), "near": ("collide/near",), "exchange": ("cluster/",)}
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "exchange")  # of several devices
-BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh": ("oibvh/", "builders/implicit/"), "perfect": ("baselines/perfect/", "builders/implicit/"),
+BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh": ("oibvh/", "builders/implicit/"),
+            "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
 COLLIDERS = {"leaf": ("collide/walks/leaf", "collide/walks/line_walk", "collide/walks/wide_walk"),
              "group": ("collide/walks/group", "collide/walks/eight_below"), "block": ("collide/walks/block",), "bvtt": ("collide/queues/",),

@@ -156,8 +156,10 @@ class Document:
         return [quote for quote in self.quotes if not agrees(self.text[quote.start:quote.end], quote.value)]
 
     def findings(self) -> list[str]:
-        wrong = [f"{self.line(quote.start)}: {self.text[quote.start:quote.end] or 'nothing'}, the file has {quote.value if isinstance(quote.value, str) else f'{quote.value:.6g}'}"
-                 for quote in self.differing()]
+        wrong = []
+        for quote in self.differing():
+            value = quote.value if isinstance(quote.value, str) else f"{quote.value:.6g}"
+            wrong.append(f"{self.line(quote.start)}: {self.text[quote.start:quote.end] or 'nothing'}, the file has {value}")
         return [*self.faults, *wrong]
 
     def filled(self) -> str:

@@ -50,7 +50,8 @@ def quotes(doc: Document) -> None:
     families(doc)
     quality(doc)
     rivals = File("h200/rivals")
-    ours = {scene: boxes_to_pairs(rivals.cell(scene, "block over oibvh-single (hilbert30, sorted leaves)")) for scene in {c.scene for c in rivals.cells}}
+    ours = {scene: boxes_to_pairs(rivals.cell(scene, "block over oibvh-single (hilbert30, sorted leaves)"))
+            for scene in {c.scene for c in rivals.cells}}
     theirs = {scene: min(boxes_to_pairs(cell) for cell in rivals.cells if cell.scene == scene and cell.outside and cell.has_times
                          and not cell.called.endswith("-refit")) for scene in ours}
     ratios = [theirs[scene] / ours[scene] for scene in ours]

@@ -69,7 +69,8 @@ class Remake(unittest.TestCase):
         for name, builder in pieces.items():
             self.assertTrue(maker.merge("both", list(pieces)))  # not all is there
             file = self.folder / f"{name}.json"
-            subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", builder, "--samples", "1", "--device", "cpu", "--json", file],
+            subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", builder, "--samples", "1", "--device", "cpu", "--json",
+                            file],
                            check=True, capture_output=True)
             (self.folder / f"{name}.json.xz").write_bytes(lzma.compress(file.read_bytes()))
             file.unlink()
@@ -85,7 +86,8 @@ class Remake(unittest.TestCase):
                                   (("--program", "/no/program"), 3, "remake: there is no program /no/program\n"),
                                   (("--program", "/bin/false"), 3, "remake: /bin/false does not run: exit code 1\n"),
                                   (("--program", PROGRAM, "--device", "no such"), 3, "no such"),
-                                  (("--program", PROGRAM, "--device", "cpu"), 3, "remake: results/h200 is of an NVIDIA H200, and this is ")):
+                                  (("--program", PROGRAM, "--device", "cpu"), 3,
+                                   "remake: results/h200 is of an NVIDIA H200, and this is ")):
             done = remake(*words)
             self.assertEqual((done.returncode, done.stdout), (code, ""), done)
             self.assertIn(said, done.stderr)

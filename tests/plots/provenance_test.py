@@ -27,7 +27,8 @@ class ResultFiles(unittest.TestCase):
         files = provenance.result_files()
         self.assertEqual([name for name in listed if name not in files], [], "listed files that are not there")
         faults = {name: provenance.faults(provenance.parsed(path)) for name, path in files.items()}
-        wrong = [f"{name}: {'; '.join(those)}; results/older.json does not list it" for name, those in faults.items() if those and name not in listed]
+        wrong = [f"{name}: {'; '.join(those)}; results/older.json does not list it" for name, those in faults.items() if those
+                 and name not in listed]
         wrong += [f"{name} is of these kernels: take it off results/older.json" for name in listed if not faults[name]]
         self.assertEqual(wrong, [], "\n".join(["", *wrong]))
         self.assertLessEqual(len(listed), MOST_LISTED, "results/older.json may only shrink")
@@ -66,14 +67,16 @@ class Kernels(InFolder):
         self.assertEqual(provenance.Work("none", "culbvh", ("build", "broad")).places(False), set())
 
     def test_have_places_that_are_there(self) -> None:
-        places = [path for table in (provenance.STAGES, provenance.BUILDERS, provenance.COLLIDERS) for paths in table.values() for path in paths]
+        places = [path for table in (provenance.STAGES, provenance.BUILDERS, provenance.COLLIDERS) for paths in table.values()
+                  for path in paths]
         kernels = [str(path.relative_to(ROOT)) for ending in ("*.cl", "*.clh") for path in ROOT.rglob(ending)]
         self.assertEqual([place for place in places if not any(path.startswith(place) for path in kernels)], [])
 
     def test_are_not_asked_for_without_a_history(self) -> None:
         with mock.patch.object(provenance, "ROOT", pathlib.Path(self.folder)):
             self.assertEqual(provenance.history(), "there is no git repository")
-        subprocess.run(["git", "clone", "--quiet", "--depth", "1", f"file://{ROOT}", f"{self.folder}/shallow"], check=True, capture_output=True)
+        subprocess.run(["git", "clone", "--quiet", "--depth", "1", f"file://{ROOT}", f"{self.folder}/shallow"], check=True,
+                       capture_output=True)
         with mock.patch.object(provenance, "ROOT", pathlib.Path(self.folder) / "shallow"):
             self.assertEqual(provenance.history(), "the clone is shallow")
 

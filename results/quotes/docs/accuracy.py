@@ -16,11 +16,13 @@ def narrow(doc: Document) -> None:
 
     for method in METHODS:
         errors = [counts(method, scene) for scene in classes]
-        doc.row(f"`{method}`", *map(sum, zip(*errors)), f"{sum(any(one) for one in errors)}{f' of {len(classes)}' if method == METHODS[0] else ''}")
+        doc.row(f"`{method}`", *map(sum, zip(*errors)),
+                f"{sum(any(one) for one in errors)}{f' of {len(classes)}' if method == METHODS[0] else ''}")
     for scene in ("near_coplanar", "needles", "hairs_breadth", "same_place", "identical", "degenerate", "denormals"):
         exact = file.cell(scene, f"narrow, {METHODS[0]}").counters
         meet, pairs, share = exact["meeting_count"], exact["pairs_count"], 100 * exact["narrow_exact_count"] / exact["pairs_count"]
-        doc.says(f"| `{scene}` | {{}} | {{}} |" + " {} / {} |" * 3, "all" if meet == pairs else f"{meet:,}", f"{share:.0f} %" if share >= 0.5 else "0",
+        doc.says(f"| `{scene}` | {{}} | {{}} |" + " {} / {} |" * 3, "all" if meet == pairs else f"{meet:,}", f"{share:.0f} %"
+                 if share >= 0.5 else "0",
                  *(count for method in METHODS[1:] for count in counts(method, scene)))
     generic = File(f"{H200}/accuracy-narrow-generic")
     ns = [us(generic.cell("generic", f"narrow, {method}")) * 1e3 / generic.cell("generic", f"narrow, {method}").counters["pairs_count"]
@@ -30,7 +32,8 @@ def narrow(doc: Document) -> None:
     times = {method: {scene: us(gpu.cell(scene, f"narrow, {method}")) for scene in classes} for method in METHODS}
     worst = times[METHODS[0]]["hairs_breadth"] / times["guigue-f64"]["hairs_breadth"]
     floats = [times["guigue-f32"][scene] / times["guigue-f64"][scene] for scene in classes]
-    doc.says("`hairs_breadth`, the worst, {} times. Doubles cost next to nothing on this GPU: `guigue-f32` takes {}\nto {} of the time", worst,
+    doc.says("`hairs_breadth`, the worst, {} times. Doubles cost next to nothing on this GPU: `guigue-f32` takes {}\nto {} of the time",
+             worst,
              min(floats), max(floats))
     own = [us(file.cell("generic", f"narrow, {method}")) * 1e3 / 217391 for method in METHODS]
     doc.says("On `generic` the default takes {} ns per pair and `guigue-f64` {}", *own[:2])
@@ -56,7 +59,8 @@ def codes(doc: Document) -> None:
             counters = file.cell(scene, f"codes, {method}").counters
             name = "radix tree" if method == "radix" else f"`{method}`"
             equal = ("", "") if method in ("kd", "radix") else (counters["duplicates_count"], counters["longest_run_count"])
-            doc.says(f"| {label if place == 0 else ''} | {name} |".replace("|  |", "| |") + (" | |" if equal[0] == "" else " {} | {} |") + " {} | {} |",
+            doc.says(f"| {label if place == 0 else ''} | {name} |".replace("|  |", "| |") + (" | |" if equal[0] == "" else " {} | {} |")
+                     + " {} | {} |",
                      *(value for value in equal if value != ""), counters["sah_cost"], counters["box_tests_count"])
 
 
@@ -73,7 +77,8 @@ def when_medians_pay(doc: Document) -> None:
         plain, kd = both(machine, scene)
         return (tree_us(kd) - tree_us(plain)) / (query_us(plain) - query_us(kd))
 
-    doc.says("has paid for its build after {}\n  queries on the torus, {} on the hairball and {} with the outlier", *(pays(POCL, scene) for scene in scenes))
+    doc.says("has paid for its build after {}\n  queries on the torus, {} on the hairball and {} with the outlier",
+             *(pays(POCL, scene) for scene in scenes))
     shares = [query_us(both(H200, scene)[0]) / tree_us(both(H200, scene)[0]) for scene in scenes[:2]]
     doc.says("takes {} (torus) and {}\n  (hairball) times as long as the build, it pays after {} and {} queries", *shares,
              *(pays(H200, scene) for scene in scenes[:2]))
@@ -96,26 +101,30 @@ def boxes(doc: Document) -> None:
         for place, name in enumerate(formats):
             counters = file.cell(scene, f"boxes, {name}").counters
             # Box tests are those of another run, by `leaf`, of which no file was kept.
-            doc.says(f"| {scene if place == 0 else ''} | `{name}` |".replace("|  |", "| |") + " {} | {} | {} | {} | {} |", counters["node_bytes"],
+            doc.says(f"| {scene if place == 0 else ''} | `{name}` |".replace("|  |", "| |") + " {} | {} | {} | {} | {} |",
+                     counters["node_bytes"],
                      counters["tree_bytes"], None, counters["false_count"], counters["pairs_count"] / counters["right_pairs_count"])
     doc.under("- **16-bit integers are enough.**")
     frames = {name: us(file.cell("torus:100000", f"boxes, {name}")) * 1e-3 for name in ("f32", "u16")}
     doc.says("a frame of the torus by `group` takes {}\n  ms instead of {}", frames["u16"], frames["f32"])
     old = File("pocl-2-cores-avx2/accuracy-boxes")
     doc.says("it takes {} instead of {}", *(us(old.cell("torus:100000", f"boxes, {name}")) * 1e-3 for name in ("u16", "f32")))
-    doc.says("and the narrow phase\n  takes {} ms instead of {}.", *(us(file.cell("torus:100000", f"boxes, {name}"), "narrow") * 1e-3 for name in ("u8", "f32")))
+    doc.says("and the narrow phase\n  takes {} ms instead of {}.",
+             *(us(file.cell("torus:100000", f"boxes, {name}"), "narrow") * 1e-3 for name in ("u8", "f32")))
     cells = {name: large.cell("torus:2880000", f"boxes, {name}") for name in ("f32", "u16", "u8")}
     doc.under("| torus:2880000 | `f32`", lines=3)
     for name, cell in cells.items():
         before = "| torus:2880000 |" if name == "f32" else "| |"
-        doc.says(f"{before} `{name}` | {{}} | {{}} | {{}} | {{}} | {{}} |", *(us(cell, stage) for stage in ("gather", "hierarchy", "broad", "narrow")), us(cell))
+        doc.says(f"{before} `{name}` | {{}} | {{}} | {{}} | {{}} | {{}} |",
+                 *(us(cell, stage) for stage in ("gather", "hierarchy", "broad", "narrow")), us(cell))
     doc.under("- **On this GPU smaller boxes")
     f32, u16 = cells["f32"], cells["u16"]
     doc.says("takes\n  {} of the time of floats in 16 bits", us(u16, "hierarchy") / us(f32, "hierarchy"))
     doc.says("The query takes {} times as long in `u16`, for", us(u16, "broad") / us(f32, "broad"))
     doc.says("and the whole frame {} times", us(u16) / us(f32))
     radix = File(f"{H200}/radix-boxes")
-    doc.says("takes {} of the time of floats in `u16`", us(radix.cell("torus:871306", "leaf over karras (hilbert30, sorted leaves, u16 boxes)"))
+    doc.says("takes {} of the time of floats in `u16`",
+             us(radix.cell("torus:871306", "leaf over karras (hilbert30, sorted leaves, u16 boxes)"))
              / us(radix.cell("torus:871306", "leaf over karras (hilbert30, sorted leaves)")))
 
 

@@ -7,10 +7,12 @@ from quotes import Document, File, best, later_ms, us
 
 PAIRS = ("torus:144046", "torus:2880000", "happy_buddha_1087716", "unc_cloth_ball")
 BLOCK, GROUP, LEAF = (f"{name} over oibvh-multi (hilbert30, sorted leaves)" for name in ("block", "group", "leaf"))
-BVTT, FROM_ROOT, CDK18 = "bvtt (jump 2) over oibvh-multi", "bvtt (without start-level, jump 1) over oibvh-multi", "bvtt (jump 1) over perfect"
+BVTT, CDK18 = "bvtt (jump 2) over oibvh-multi", "bvtt (jump 1) over perfect"
+FROM_ROOT = "bvtt (without start-level, jump 1) over oibvh-multi"
 SAT = f"{BVTT}, contacts sat-f32"
 FRONT, FRESH, REFIT = "front over oibvh-multi", "front (always rebuild) over apetrei-fused", "group (always refit) over apetrei-fused"
-RADIX = [f"{name} over apetrei-fused" for name in ("front", "front-leaf", "front (one tree of the scene)", "front-leaf (one tree of the scene)")]
+RADIX = [f"{name} over apetrei-fused" for name in ("front", "front-leaf", "front (one tree of the scene)",
+                                                   "front-leaf (one tree of the scene)")]
 TABLE2 = {"unc_cloth_ball for cloth-ball": "unc_cloth_ball, 15 between", "cloth-funnel:18484 for funnel": "cloth-funnel:18484",
           "unc_nbody for n-body": "unc_nbody, 15 between", "cloth-dress:49000 for flamenco": "cloth-dress:49000"}
 TABLE3 = {"cloth-layers:127000 for andy": "cloth-layers:127000", "cloth-ball:18000 for bridson": "cloth-ball:18000",
@@ -56,7 +58,8 @@ def table2(doc: Document, machine: str) -> dict[str, dict[str, float]]:
     """Returns milliseconds a frame by row and scene."""
     file, times = File(f"{machine}/table2"), {}
     for label, scene in TABLE2.items():
-        of = {asked: later_ms(file.frames(scene, asked)) for asked in (BLOCK, GROUP, BVTT, FROM_ROOT, CDK18, SAT, FRONT, FRESH, REFIT, *RADIX)}
+        of = {asked: later_ms(file.frames(scene, asked))
+              for asked in (BLOCK, GROUP, BVTT, FROM_ROOT, CDK18, SAT, FRONT, FRESH, REFIT, *RADIX)}
         of["front, radix"] = min(of[asked] for asked in RADIX)
         times[scene] = of
         if machine == "h200":
@@ -85,7 +88,8 @@ def findings_of_table2(doc: Document) -> None:
     steps = {asked: {cell.samples[0]["broad"]["launches"] for scene in TABLE2.values() for cell in file.frames(scene, asked)[1:]}
              for asked in (FRONT, *RADIX)}
     front, leaf = steps[FRONT] | steps[RADIX[0]] | steps[RADIX[2]], steps[RADIX[1]] | steps[RADIX[3]]
-    doc.says("launches {} to {}, and `front-leaf` {} in a frame that keeps its front and {} in one that maintains it", min(front), max(front),
+    doc.says("launches {} to {}, and `front-leaf` {} in a frame that keeps its front and {} in one that maintains it", min(front),
+             max(front),
              *sorted(leaf)[:2])  # a frame that makes a new tree takes more
     fresh, refits = ratios(times, FRESH, "front over apetrei-fused"), ratios(times, REFIT, "front over apetrei-fused")
     doc.says("a fresh one in every frame takes {} to {} times as long as `front` over the same tree", fresh[0], fresh[-1])
@@ -102,7 +106,8 @@ def findings_of_table2(doc: Document) -> None:
     saved = sorted(1e3 * (of[BVTT] - of[SAT]) for of in times.values())
     doc.says("`sat-f32` saves {} to {} µs", saved[0], saved[-1])
     cloth = file.frames("unc_cloth_ball, 15 between", SAT)
-    doc.says("finds {} contacts too many of {} on `unc_cloth_ball`", *(sum(cell.counters[key] for cell in cloth) for key in ("false_count", "contacts_count")))
+    doc.says("finds {} contacts too many of {} on `unc_cloth_ball`",
+             *(sum(cell.counters[key] for cell in cloth) for key in ("false_count", "contacts_count")))
 
     doc.under("On two cores through PoCL", until="## Whole frames: Table 3")
     times = table2(doc, "pocl-2-cores")
@@ -113,13 +118,15 @@ def findings_of_table2(doc: Document) -> None:
 def table3(doc: Document) -> None:
     doc.under("## Whole frames: Table 3")
     rivals, file, times = File("h200/table3-rivals"), File("h200/table3"), {}
-    andy, bridson = ([later_ms(rivals.frames(scene, asked)) for asked in (FROM_ROOT, CDK18, "hierarchical grid")] for scene in list(TABLE3.values())[:2])
+    andy, bridson = ([later_ms(rivals.frames(scene, asked)) for asked in (FROM_ROOT, CDK18, "hierarchical grid")]
+                     for scene in list(TABLE3.values())[:2])
     doc.says("{} and {} ms on andy, {} and {} on bridson, the grid {} and {}", *andy[:2], *bridson[:2], andy[2], bridson[2])
     for label, scene in TABLE3.items():
         times[scene] = {asked: later_ms(file.frames(scene, asked)) for asked in (BLOCK, BVTT, LEAF, GROUP, "hierarchical grid")}
         doc.row(label, *times[scene].values(), printed("table3", label))
     low, high = ratios(times, "hierarchical grid", BVTT), ratios(times, BLOCK, "hierarchical grid")
-    doc.says("takes {} to {} of the time of the paper's pipeline, `bvtt`, and `block` {} to {} of the time of `grid`", low[0], low[-1], high[0], high[-1])
+    doc.says("takes {} to {} of the time of the paper's pipeline, `bvtt`, and `block` {} to {} of the time of `grid`", low[0], low[-1],
+             high[0], high[-1])
 
 
 def rebuild(doc: Document) -> None:
@@ -134,9 +141,11 @@ def rebuild(doc: Document) -> None:
         doc.row(label, *times[asked], most_mb(h200.frames(scene, asked)))
     fronts = (FRONT, *RADIX[:2])
     doc.says("rebuilding with `block` takes {} of the time of the best front", times[BLOCK][0] / min(times[asked][0] for asked in fronts))
-    doc.says("The fronts equal the paper's `bvtt` within {} %", math.ceil(max(abs(100 * times[asked][0] / times[BVTT][0] - 100) for asked in fronts)))
+    doc.says("The fronts equal the paper's `bvtt` within {} %",
+             math.ceil(max(abs(100 * times[asked][0] / times[BVTT][0] - 100) for asked in fronts)))
     soonest = min(times[asked][1] for asked in fronts)
-    doc.says("takes {} of the time of the paper's `bvtt` and {} times that of `group`", soonest / min(times[BVTT][1], times[FROM_ROOT][1]), soonest / times[GROUP][1])
+    doc.says("takes {} of the time of the paper's `bvtt` and {} times that of `group`", soonest / min(times[BVTT][1], times[FROM_ROOT][1]),
+             soonest / times[GROUP][1])
 
 
 def libraries(doc: Document) -> None:
@@ -145,12 +154,16 @@ def libraries(doc: Document) -> None:
     up, back, more = ([[f(rows[0]) for rows in there.values()] for there in scenes]
                       for f in (lambda row: copied_ms(row, "upload_ns"), lambda row: copied_ms(row, "read_back_ns"),
                                 lambda row: 1 + (copied_ms(row, "upload_ns") + copied_ms(row, "read_back_ns")) / (row.ns * 1e-6)))
-    doc.says("beside an H200 {} to {} ms for the vertices and {} to {} ms for the contacts of these scenes, so that the\nbest frame takes {} to {} times",
+    doc.says("beside an H200 {} to {} ms for the vertices and {} to {} ms for the contacts of these "
+             "scenes, so that the\nbest frame takes {} to {} times",
              *(end for values in (up, back, more) for end in (min(values[0]), max(values[0]))))
-    doc.says("{} to {} ms and {} to {} ms, at\nmost {} % of a frame", *(end for values in (up, back) for end in (min(values[1]), max(values[1]))),
+    doc.says("{} to {} ms and {} to {} ms, at\nmost {} % of a frame",
+             *(end for values in (up, back) for end in (min(values[1]), max(values[1]))),
              100 * max(more[1]) - 100)
-    embree = [min(row.ratio for row in rows if row.first.builder == "none" and row.first.collider in ("embree", "embree-refit")) for rows in scenes[1].values()]
-    doc.says("takes {} of the time of Embree on\n`unc_cloth_ball`, {} of that of Embree with refitted trees on the bunny and {} on `unc_nbody`",
+    embree = [min(row.ratio for row in rows if row.first.builder == "none" and row.first.collider in ("embree", "embree-refit"))
+              for rows in scenes[1].values()]
+    doc.says("takes {} of the time of Embree on\n`unc_cloth_ball`, {} of that of Embree with refitted "
+             "trees on the bunny and {} on `unc_nbody`",
              1 / embree[1], 1 / embree[0], 1 / embree[2])
 
 

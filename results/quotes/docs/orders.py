@@ -21,7 +21,8 @@ def quotes(doc: Document) -> None:
     times, costs = [us(cell) for cell in torus], [cell.counters["sah_cost"] for cell in torus]
     doc.row("triangles to tree", *times)
     doc.row("SAH", *costs)
-    doc.says("costs {} % more time than `morton30` and lowers SAH by {} %", 100 * times[2] / times[0] - 100, 100 - 100 * costs[2] / costs[0])
+    doc.says("costs {} % more time than `morton30` and lowers SAH by {} %", 100 * times[2] / times[0] - 100, 100 - 100 * costs[2]
+             / costs[0])
     doc.says("in {} times the time of `morton30` and {} times that of the best radix builder", times[6] / times[0], times[6] / times[7])
 
     far = {asked: {mesh: [sah(fig13, cell.scene, asked) / sah(fig13, cell.scene, "apetrei-fused, morton30-axis") for cell in fig13.cells

@@ -21,11 +21,14 @@ def builds(doc: Document) -> None:
 
     doc.says("| {} to {} times `apetrei`, which is as printed; {} to {} times `apetrei-fused`", *ends(over(table1, scenes, "apetrei")),
              *ends(over(table1, scenes, "apetrei-fused")))
-    doc.says("| {} to {} times `apetrei` from 2^10 to 2^24", *ends(over(fig8, [refined(exponent) for exponent in range(10, 25)], "apetrei")))
-    doc.says("| {} and {} ns a thousand triangles", *(us(fig8.cell(refined(exponent), "oibvh-single")) * 1e6 / (1 << exponent) for exponent in (22, 24)))
+    doc.says("| {} to {} times `apetrei` from 2^10 to 2^24",
+             *ends(over(fig8, [refined(exponent) for exponent in range(10, 25)], "apetrei")))
+    doc.says("| {} and {} ns a thousand triangles",
+             *(us(fig8.cell(refined(exponent), "oibvh-single")) * 1e6 / (1 << exponent) for exponent in (22, 24)))
     most = fig8.cell(refined(24), "oibvh-single")
     doc.says("| {} at 2^24, another device", most.counters["nodes_count"] / us(most) * 1e-3)
-    small, large = ([us(printed.cell(refined(exponent), name)) for name in ("oibvh-single-printed", "oibvh-multi")] for exponent in (13, 16))
+    small, large = ([us(printed.cell(refined(exponent), name)) for name in ("oibvh-single-printed", "oibvh-multi")]
+                    for exponent in (13, 16))
     doc.says("| as printed, {} times at 2^13, and {} times at 2^16", small[1] / small[0], large[0] / large[1])
     doc.says("| saves {} to {} % of its bytes |", *ends([100 - 100 * table1.cell(scene, "oibvh-multi").counters["tree_bytes"]
                                                   / table1.cell(scene, "perfect").counters["tree_bytes"] for scene in scenes]))
@@ -46,15 +49,19 @@ def frames(doc: Document) -> None:
     best = [min(RADIX, key=lambda asked: later_ms(file.frames(scene, asked))) for scene in SCENES]
     doc.says("| {} to {} times as fast as a front |", *over(fronts, ours))
     doc.says("| 4 times | {} to {} times |", *over(times(of_frames.FRESH), ours))
-    doc.says("the pipeline takes {} to {} of the time of refits without a front, `block` over the same tree {} to {} |", *over(ours, refits),
+    doc.says("the pipeline takes {} to {} of the time of refits without a front, `block` over the same tree {} to {} |",
+             *over(ours, refits),
              *over(times(of_frames.BLOCK), refits))
     doc.says("| it takes {} to {} times as long as a front |", *over(times(of_frames.FROM_ROOT), fronts))
     doc.says("| {} to {} % of a front |", *over([100 * of_frames.most_mb(file.frames(scene, BVTT)) for scene in SCENES],
                                                [of_frames.most_mb(file.frames(scene, front)) for scene, front in zip(SCENES, best)]))
-    peaks = [[sum(cell.counters["bvtt_peak_count"] for cell in file.frames(scene, asked)[1:]) for scene in SCENES] for asked in (BVTT, RADIX[0])]
+    peaks = [[sum(cell.counters["bvtt_peak_count"] for cell in file.frames(scene, asked)[1:]) for scene in SCENES]
+             for asked in (BVTT, RADIX[0])]
     doc.says("| {} to {} % smaller than the entries", *ends([100 - 100 * one / other for one, other in zip(*peaks)]))
-    tracked = [file.frames(scene, asked) for scene in SCENES for asked in RADIX] + [rebuild.frames("cloth_ball_sim", asked) for asked in RADIX[:2]]
-    doc.says("| {} of {} frames of fronts", sum(those[-1].counters["restarts_count"] for those in tracked), sum(len(those) - 1 for those in tracked))
+    tracked = [file.frames(scene, asked) for scene in SCENES for asked in RADIX] + [rebuild.frames("cloth_ball_sim", asked)
+                                                                                    for asked in RADIX[:2]]
+    doc.says("| {} of {} frames of fronts", sum(those[-1].counters["restarts_count"] for those in tracked),
+             sum(len(those) - 1 for those in tracked))
 
     def share(scene: str, *stages: str) -> float:
         those = file.frames(scene, BVTT)[1:]
@@ -78,13 +85,16 @@ def trees(doc: Document) -> None:
     def cost(file: File, scene: str) -> float:
         return sah(file, scene, "oibvh-multi, morton30-axis") / sah(file, scene, "apetrei-fused, morton30-axis")
 
-    doc.says("| 1.67 to 2.66 times the cost | {} to {} times |", *ends([cost(table4, scene) for scene in {cell.scene for cell in table4.cells}]))
+    doc.says("| 1.67 to 2.66 times the cost | {} to {} times |",
+             *ends([cost(table4, scene) for scene in {cell.scene for cell in table4.cells}]))
     away = [cost(fig13, scene) for scene in dict.fromkeys(cell.scene for cell in fig13.cells) if "dragon" in scene]
     doc.says("| {} times at the mesh, at most {} times on the dragon", away[0], max(away))
 
     printed = File("h200/fig8-printed")
-    pairs = [[us(printed.cell(f"refine:torus:1024:{1 << exponent}", name)) for name in ("oibvh-single-printed", "oibvh-multi")] for exponent in (13, 14, 15)]
-    doc.says("the faster up to 2^13 triangles ({} and {} µs), equal at 2^14 ({}) and the slower from 2^15 on ({} and {};", *pairs[0], pairs[1][0], *pairs[2])
+    pairs = [[us(printed.cell(f"refine:torus:1024:{1 << exponent}", name)) for name in ("oibvh-single-printed", "oibvh-multi")]
+             for exponent in (13, 14, 15)]
+    doc.says("the faster up to 2^13 triangles ({} and {} µs), equal at 2^14 ({}) and the slower from 2^15 on ({} and {};", *pairs[0],
+             pairs[1][0], *pairs[2])
     doc.says("the Happy Buddha's costs are {} and {};", *(sah(table4, "happy_buddha_1087716", f"{name}, morton30-axis")
                                                          for name in ("apetrei-fused", "oibvh-multi")))
     doc.says("the bunny's 144,046 triangles take {} µs where single work-items take {} (",

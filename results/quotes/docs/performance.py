@@ -18,7 +18,8 @@ def launches(cell: Cell, stage: str = "") -> int:
     return sum(numbers["launches"] for name, numbers in cell.samples[0].items() if stage in (name, ""))
 
 
-def row(doc: Document, label: str, cells: tuple[Cell, Cell], stage: str, rate: float, scale: float = 1, ratios: int = 1, before: str = "") -> None:
+def row(doc: Document, label: str, cells: tuple[Cell, Cell], stage: str, rate: float, scale: float = 1, ratios: int = 1,
+        before: str = "") -> None:
     """A row of floors and times of a large and a small scene. Bytes and launches of the small one are told where they differ."""
     told = [str(launches(cell, stage)) for cell in cells], [f"{moved(cell, stage):.0f}" for cell in cells]
     # Bytes of scenes differ by parts of a byte, which the text does not have.
@@ -43,14 +44,17 @@ def builds(doc: Document) -> None:
                                 ("whole build", single, ""), ("`gather`, with sorted leaves", kd, "gather"),
                                 ("`hierarchy` from sorted leaves", kd, "hierarchy"),
                                 ("`hierarchy`, `oibvh-multi`", both(peers, "oibvh-multi"), "hierarchy"),
-                                ("`codes`, `hilbert30`", both(roofline, "oibvh-multi, hilbert30"), "codes"), ("`order`, `kd`", kd, "order")):
+                                ("`codes`, `hilbert30`", both(roofline, "oibvh-multi, hilbert30"), "codes"),
+                                ("`order`, `kd`", kd, "order")):
         row(doc, label, cells, stage, rate)
-    doc.says("| `sort` | {} | {}, small {} | {} | {} | {} | {} | {} |", moved(single[0], "sort"), launches(single[0], "sort"), launches(single[1], "sort"),
+    doc.says("| `sort` | {} | {}, small {} | {} | {} | {} | {} | {} |", moved(single[0], "sort"), launches(single[0], "sort"),
+             launches(single[1], "sort"),
              floor_us(single[0], "sort", rate), us(single[0], "sort"), us(single[0], "sort") / floor_us(single[0], "sort", rate),
              floor_us(single[1], "sort", rate), us(single[1], "sort"))
 
     cold = both(File("h200/peers-cold"), "oibvh-single")
-    doc.says("take {}, {} and {} µs, those of torus:144046 {}, {} and {}", *(us(cell, stage) for cell in cold for stage in ("bounds", "codes", "hierarchy")))
+    doc.says("take {}, {} and {} µs, those of torus:144046 {}, {} and {}",
+             *(us(cell, stage) for cell in cold for stage in ("bounds", "codes", "hierarchy")))
     doc.says("The sort took {} µs of the small one; of the large one {}", us(cold[1], "sort"), us(cold[0], "sort"))
     most = File("h200/scaling-large").cell("torus:67108864", "oibvh-single")
     doc.says("{} triangles take {} ms, {} ns per triangle against {} at 2,880,000", most.triangles, us(most) * 1e-3,
@@ -62,11 +66,13 @@ def queries(doc: Document) -> None:
     roofline = File("h200/roofline")
     rate = roofline.document["run"]["copy_rate_bytes_per_s"]
     for label, asked in (("`leaf`", "leaf over oibvh-multi (sorted leaves)"), ("`group`", "group over oibvh-multi (sorted leaves)"),
-                         ("`block`", "block over oibvh-multi (sorted leaves)"), ("`bvtt`, jump 2", "bvtt (jump 2) over oibvh-multi (sorted leaves)"),
+                         ("`block`", "block over oibvh-multi (sorted leaves)"),
+                         ("`bvtt`, jump 2", "bvtt (jump 2) over oibvh-multi (sorted leaves)"),
                          ("`grid`", "hierarchical grid")):
         cells = roofline.cell(LARGE, asked), roofline.cell(SMALL, asked)
         row(doc, f"`broad` | {label}", cells, "broad", rate, ratios=2)
-    row(doc, "`narrow` | after any", tuple(roofline.cell(scene, "leaf over oibvh-multi (sorted leaves)") for scene in (LARGE, SMALL)), "narrow", rate, ratios=2)
+    row(doc, "`narrow` | after any", tuple(roofline.cell(scene, "leaf over oibvh-multi (sorted leaves)") for scene in (LARGE, SMALL)),
+        "narrow", rate, ratios=2)
 
 
 def two_cores(doc: Document) -> None:
@@ -74,10 +80,13 @@ def two_cores(doc: Document) -> None:
     file = File("pocl-2-cores/roofline")
     rate = file.document["run"]["copy_rate_bytes_per_s"]
     doc.says("copy rate {} GB/s read plus written, {} µs per launch", rate * 1e-9, file.document["run"]["launch_cost_ns"] * 1e-3)
-    for label, asked, stage in (("`bounds`", "oibvh-multi", "bounds"), ("`codes`", "oibvh-multi", "codes"), ("`sort`", "oibvh-multi", "sort"),
-                                ("`hierarchy`", "oibvh-multi", "hierarchy"), ("`gather`, with sorted leaves", "oibvh-multi, sorted leaves", "gather"),
+    for label, asked, stage in (("`bounds`", "oibvh-multi", "bounds"), ("`codes`", "oibvh-multi", "codes"),
+                                ("`sort`", "oibvh-multi", "sort"),
+                                ("`hierarchy`", "oibvh-multi", "hierarchy"),
+                                ("`gather`, with sorted leaves", "oibvh-multi, sorted leaves", "gather"),
                                 ("`hierarchy` from sorted leaves", "oibvh-multi, sorted leaves", "hierarchy"),
-                                ("`codes`, `hilbert30`", "oibvh-multi, hilbert30", "codes"), ("`order`, `kd`", "oibvh-multi, kd, sorted leaves", "order")):
+                                ("`codes`, `hilbert30`", "oibvh-multi, hilbert30", "codes"),
+                                ("`order`, `kd`", "oibvh-multi, kd, sorted leaves", "order")):
         row(doc, label, (file.cell(LARGE, asked), file.cell(SMALL, asked)), stage, rate, 1e-3, 2)
 
 
@@ -92,7 +101,8 @@ def libraries(doc: Document) -> None:
     doc.says("is {} to {} times as fast as Embree's Morton builder and {} to {} times as fast as FCL's",
              *(end for values in ratios for end in (min(values), max(values))))
     yardstick = File("pocl-2-cores/yardstick")
-    hosts = [us(yardstick.cell(scene, "oibvh-host"), "hierarchy") / us(yardstick.cell(scene, "oibvh-multi"), "hierarchy") for scene in {cell.scene for cell in yardstick.cells}]
+    hosts = [us(yardstick.cell(scene, "oibvh-host"), "hierarchy") / us(yardstick.cell(scene, "oibvh-multi"), "hierarchy")
+             for scene in {cell.scene for cell in yardstick.cells}]
     doc.says("takes {} to {} times as long as `oibvh-multi` on four\nmeshes", min(hosts), max(hosts))
 
 
@@ -100,7 +110,8 @@ def queries_of_two_cores(doc: Document) -> None:
     doc.under("### Growth", until="## Wide trees")
     growth = {cell.triangles: us(cell) * 1e3 / cell.triangles for cell in File("pocl-2-cores/scaling").cells if cell.has_times}
     middle = [ns for count, ns in growth.items() if 1 << 15 <= count <= 1 << 24]
-    doc.says("takes {} ns per triangle at 2^10, {} to {} ns from 2^15 to 2^24, and {} ns at 2^25", growth[1 << 10], min(middle), max(middle), growth[1 << 25])
+    doc.says("takes {} ns per triangle at 2^10, {} to {} ns from 2^15 to 2^24, and {} ns at 2^25", growth[1 << 10], min(middle),
+             max(middle), growth[1 << 25])
     pairs, scenes = File("pocl-2-cores/native-pairs"), ("two-spheres:198448:1", "dragon_202520", "unc_cloth_ball")
     embree = [us(pairs.cell(scene, "embree"), "broad") * 1e-3 for scene in scenes]
     for label, builder in (("`oibvh-multi`, `hilbert30`, sorted leaves", "oibvh-multi (hilbert30, sorted leaves)"),

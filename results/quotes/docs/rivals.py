@@ -36,7 +36,8 @@ def quotes(doc: Document) -> None:
     for label, asked in ROWS.items():
         doc.row(label, *(entry(rivals.cell(scene, asked), first[scene]) for scene in SCENES))
     best = [min(boxes_to_pairs(rivals.cell(scene, asked)) for asked in ROWS.values()
-                if rivals.cell(scene, asked).outside and rivals.cell(scene, asked).has_times) / boxes_to_pairs(first[scene]) for scene in SCENES]
+                if rivals.cell(scene, asked).outside and rivals.cell(scene, asked).has_times) / boxes_to_pairs(first[scene])
+            for scene in SCENES]
     doc.says("The fastest method from outside takes {} to {} times as long as ours", min(best), max(best))
     doc.says("cuBQL takes {} ms where `block` takes {}", query_us(rivals.cell(SCENES[2], "cubql-rebin-radix")) * 1e-3,
              query_us(first[SCENES[2]]) * 1e-3)
