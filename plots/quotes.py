@@ -165,7 +165,8 @@ class Document:
     def filled(self) -> str:
         """Returns the text with the files' numbers."""
         text = self.text
-        for quote in sorted(self.differing(), reverse=True):
+        once = {quote.start: quote for quote in self.differing()}  # sentences may share a number
+        for _, quote in sorted(once.items(), reverse=True):
             text = text[:quote.start] + filled(text[quote.start:quote.end], quote.value) + text[quote.end:]
         return text
 

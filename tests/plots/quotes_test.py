@@ -60,6 +60,7 @@ class ADocument(InFolder):
         self.assertEqual(made.findings(), [])
         made.says("takes {} µs", 25.51)
         self.assertEqual(made.findings(), ["made.md:3: 25.4, the file has 25.51"])
+        made.says("takes {} µs\nand", 25.51)  # a second sentence with the same number
         self.assertIn("It takes 25.5 µs\nand 1,234 bytes", made.filled())
 
     def test_misses_no_digit_of_a_number(self) -> None:
