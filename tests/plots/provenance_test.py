@@ -75,6 +75,8 @@ class Kernels(InFolder):
     def test_are_not_asked_for_without_a_history(self) -> None:
         with mock.patch.object(provenance, "ROOT", pathlib.Path(self.folder)):
             self.assertEqual(provenance.history(), "there is no git repository")
+        if provenance.history() == "there is no git repository":
+            self.skipTest("there is no git repository to clone")
         subprocess.run(["git", "clone", "--quiet", "--depth", "1", f"file://{ROOT}", f"{self.folder}/shallow"], check=True,
                        capture_output=True)
         with mock.patch.object(provenance, "ROOT", pathlib.Path(self.folder) / "shallow"):
