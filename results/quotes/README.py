@@ -1,0 +1,79 @@
+import operator
+
+import answer
+import ranking
+import tables
+from cells import Cell
+from quotes import Document, File, asked_of, frame_ms, query_us, sah, tree_us, us
+
+AS_PRINTED = "bvtt over oibvh-multi"
+SCANS = ("bunny_69451", "armadillo_86482", "turbineblade_199034", "dragon_202520", "happy_buddha_1087716")
+
+
+def told(row: ranking.Row, best: ranking.Row) -> str:
+    time = tables.three_digits(row.ns * 1e-6)
+    return f"**{time}**" if row is best else f"{time} ({'=' if row.tied else f'× {answer.number(row.ratio)}'})"
+
+
+def families(doc: Document) -> None:
+    """The table of families, in both files by scene, and what is said of it."""
+    bests, as_printed = [], []
+    for machine in ("h200", "pocl-2-cores"):
+        found = ranking.ranked(File(f"{machine}/families").cells)
+        as_printed += [row.ratio for rows in found.scenes.values() for row in rows if asked_of(row.first) == AS_PRINTED]
+        bests += [{answer.family(row): row for row in answer.best_of_families(rows)} for rows in found.scenes.values()]
+    labels = {"implicit trees": "implicit trees, the paper's", "front tracking": "front tracking, over any tree"}
+    for family in bests[0]:
+        doc.row(labels.get(family, family), *(told(of[family], next(iter(of.values()))) for of in bests))
+    doc.says("with `bvtt`, it takes {} to {} times the best", min(as_printed[:3]), max(as_printed[:3]))
+    implicit, padded = ([of[family].ns for of in bests[:3]] for family in ("implicit trees", "padded implicit trees"))
+    doc.says("wins on two scenes and takes {} times the best on the third", max(of["implicit trees"].ratio for of in bests[:3]))
+    doc.says("the padded tree, which is simpler, takes at most {} times as long", max(map(operator.truediv, padded, implicit)))
+
+
+def quality(doc: Document) -> None:
+    trees, table4, orders = File("h200/quality"), File("h200/table4"), File("h200/orders")
+    ratios = [sah(table4, scene, "oibvh-multi, morton30-axis") / sah(table4, scene, "apetrei-fused, morton30-axis")
+              for scene in dict.fromkeys(cell.scene for cell in table4.cells)]
+    doc.says("costs 1.7 to 2.7 times as much as a radix tree in the paper's Table 4, {} to {} times here", min(ratios), max(ratios))
+    doc.says("`--order kd` brings it within {} % on five scans",
+             100 * max(sah(trees, scene, "oibvh-multi, kd") / sah(trees, scene, "apetrei-fused") - 1 for scene in SCANS))
+    doc.says("From triangles to tree of torus:2880000 that takes {} µs, the paper's order {} µs and the radix tree {} µs",
+             *(us(orders.cell("torus:2880000", name)) for name in ("oibvh-multi, kd", "oibvh-multi, morton30-axis", "apetrei-fused")))
+
+
+def boxes_to_pairs(cell: Cell) -> float:
+    return tree_us(cell, "bounds") + query_us(cell)
+
+
+def quotes(doc: Document) -> None:
+    families(doc)
+    quality(doc)
+    rivals = File("h200/rivals")
+    ours = {scene: boxes_to_pairs(rivals.cell(scene, "block over oibvh-single (hilbert30, sorted leaves)"))
+            for scene in {c.scene for c in rivals.cells}}
+    theirs = {scene: min(boxes_to_pairs(cell) for cell in rivals.cells if cell.scene == scene and cell.outside and cell.has_times
+                         and not cell.called.endswith("-refit")) for scene in ours}
+    ratios = [theirs[scene] / ours[scene] for scene in ours]
+    doc.says("take at best {} to {} times as long as `block`", min(ratios), max(ratios))
+
+    billion, strong = File("h200/cluster-billion").document, File("h200/cluster-strong").document["runs"]
+    doc.says("two H200 find the {} pairs of a torus of 10^9 triangles in {} ms", billion["pairs_count"], frame_ms(billion))
+    doc.says("those of 67,108,864 triangles {} times as fast as one", frame_ms(strong[0]["result"]) / frame_ms(strong[1]["result"]))
+
+    table1 = File("h200/table1")
+    doc.says("{} µs from sorted leaves to a tree of {} triangles, where the best radix tree takes {}",
+             us(table1.cell("buddha", "oibvh-single")), table1.cell("buddha", "oibvh-single").triangles,
+             us(table1.cell("buddha", "apetrei-fused")))
+    peers, pairs = File("h200/peers"), File("h200/pairs")
+    kd, hilbert = ("block over oibvh-single (kd, sorted leaves)", "block over oibvh-single (hilbert30, sorted leaves)")
+    doc.says("{} ms | `run peers` |\n| the same of torus:144046 | {} ms |", us(peers.cell("torus:2880000", "oibvh-single")) * 1e-3,
+             us(peers.cell("torus:144046", "oibvh-single")) * 1e-3)
+    for scene, text in (("torus:2880000", "all {} pairs of torus:2880000, written, tree given | {} ms"),
+                        ("happy_buddha_1087716", "the same of the Happy Buddha, {} pairs | {} ms")):
+        cell = pairs.cell(scene, kd)
+        doc.says(text, cell.counters["pairs_count"], us(cell, "broad") * 1e-3)
+    doc.says("triangles to written pairs, torus:2880000 | {} ms", us(pairs.cell("torus:2880000", hilbert)) * 1e-3)
+
+    equality = File("h200/equality")
+    doc.says("{} trees of every size from 1 to 600", sum(cell.verdict == "agrees" for cell in equality.cells))

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Tests results/remake: that it knows every file of results/h200, and makes, leaves and refuses.
+
+Usage: remake_test.py <bvhbench> <source root>"""
+import argparse
+import json
+import lzma
+import pathlib
+import re
+import runpy
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, ROOT = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)).resolve()
+SCRIPT = ROOT / "results" / "remake"
+
+
+def remake(*words: str) -> subprocess.CompletedProcess:
+    return subprocess.run([sys.executable, SCRIPT, *words], capture_output=True, text=True, check=False)
+
+
+class Remake(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def quick(self, *words: str) -> subprocess.CompletedProcess:
+        return remake("--program", PROGRAM, "--device", "cpu", "--quick", "--out", str(self.folder), *words)
+
+    def test_lists_every_file_in_parts_of_less_than_ten_minutes(self) -> None:
+        listed = remake("--list")
+        self.assertEqual((listed.returncode, listed.stderr), (0, ""))
+        names = set(re.findall(r"^ *([\w-]+?)(?:\.\d+)? +(?:\d+ s  |cannot be made again)", listed.stdout, re.MULTILINE))
+        self.assertEqual(names, {path.name.removesuffix(".json.xz") for path in (ROOT / "results" / "h200").glob("*.json.xz")})
+        seconds = [int(text) for text in re.findall(r"^part \d+: (\d+) s", listed.stdout, re.MULTILINE)]
+        self.assertLess(max(seconds), 600)
+        self.assertGreater(len(seconds), 5)
+        self.assertNotIn("not there", listed.stdout)
+
+    def test_names_experiments_and_filters_that_there_are(self) -> None:
+        for unit in runpy.run_path(str(SCRIPT))["units"]():
+            if unit.command.startswith("run "):
+                name = unit.command.split()[1]
+                self.assertTrue((ROOT / "harness" / "experiments" / f"{name}.json").is_file(), unit)
+
+    def test_makes_a_part_once(self) -> None:
+        first = self.quick("--part", "2", "--only", "rebuild")
+        self.assertEqual((first.returncode, first.stdout), (0, "rebuild: run rebuild --quick\n"), first.stderr)
+        made = self.folder / "rebuild.json.xz"
+        document = json.loads(lzma.decompress(made.read_bytes()))
+        self.assertEqual(({cell["status"] for cell in document["cells"]}, document["run"]["device"]["kind"]), ({"measured"}, "cpu"))
+        self.assertEqual([path.name for path in self.folder.iterdir()], [made.name])
+        before = made.stat().st_mtime_ns
+        self.assertEqual(self.quick("--only", "rebuild").stdout, "rebuild: is of this commit\n")
+        self.assertEqual(made.stat().st_mtime_ns, before)
+        document["run"]["program"]["commit"] = "0123456789" * 4  # another commit: it is made again
+        made.write_bytes(lzma.compress(json.dumps(document).encode()))
+        self.assertEqual(self.quick("--only", "rebuild").stdout, "rebuild: run rebuild --quick\n")
+        self.assertEqual(self.quick("--only", "accuracy-sums").stdout, "accuracy-sums: left out, its command has no --quick\n")
+
+    def test_merges_what_several_commands_made(self) -> None:
+        words = argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True)
+        maker = runpy.run_path(str(SCRIPT))["Maker"](words)
+        maker.ask()
+        pieces = {"both.1": "oibvh-single", "both.2": "karras"}
+        for name, builder in pieces.items():
+            self.assertTrue(maker.merge("both", list(pieces)))  # not all is there
+            file = self.folder / f"{name}.json"
+            subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", builder, "--samples", "1", "--device", "cpu", "--json",
+                            file],
+                           check=True, capture_output=True)
+            (self.folder / f"{name}.json.xz").write_bytes(lzma.compress(file.read_bytes()))
+            file.unlink()
+        self.assertTrue(maker.merge("both", list(pieces)))
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["both.json.xz"])
+        document = json.loads(lzma.decompress((self.folder / "both.json.xz").read_bytes()))
+        self.assertEqual([cell["builder"]["name"] for cell in document["cells"]], list(pieces.values()))
+
+    def test_refuses_in_one_sentence(self) -> None:
+        for words, code, said in ((("--part", "99"), 2, "there is no part 99; there are 1 to "),
+                                  (("--only", "nothing"), 2, "there is no file nothing; --list"),
+                                  (("--quick",), 2, "--quick makes no results; name another folder with --out"),
+                                  (("--program", "/no/program"), 3, "remake: there is no program /no/program\n"),
+                                  (("--program", "/bin/false"), 3, "remake: /bin/false does not run: exit code 1\n"),
+                                  (("--program", PROGRAM, "--device", "no such"), 3, "no such"),
+                                  (("--program", PROGRAM, "--device", "cpu"), 3,
+                                   "remake: results/h200 is of an NVIDIA H200, and this is ")):
+            done = remake(*words)
+            self.assertEqual((done.returncode, done.stdout), (code, ""), done)
+            self.assertIn(said, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
