@@ -21,109 +21,53 @@
 // the leaves. So a stack with 31 entries per wide level below the root's, plus the block's ancestors, never overflows.
 //
 // `pairs`, `counters` and the tasks are as in group_groups.cl. Teams of a group synchronise only to add up their box tests.
-#include "collide/sinks/sink_teams.clh"
+#include "collide/walks/block_team.clh"
 #include "collide/walks/task.clh"
 
 #if LANES != 1u && LANES != TEAM_LANES
 #error "the host launches TEAM_LANES work-items a team"
 #endif
 
-#define BLOCK BLOCK_LEAVES
-#define WIDE_LEVELS 7u                    // enough for 2^31 leaves
-#define STACK (32u * (WIDE_LEVELS - 1u))  // 31 per wide level and one more, and five ancestors
-#define SEEN (2u * BLOCK)
+// A stack entry: a node's label, which has 26 bits above a tree's last five levels, and the wide level of its descendants.
+#define ENTRY(node, wide) ((node) << 3u | (wide))
+#define NODE_OF(entry) ((entry) >> 3u)
+#define WIDE_OF(entry) ((entry)&7u)
 
-// A stack entry: a node's wide level, and its label, which has 26 bits above a tree's last five levels.
-#define ENTRY(wide, node) ((wide) << 27u | (node))
-#define WIDE_OF(entry) ((entry) >> 27u)
-#define NODE_OF(entry) ((entry)&0x7ffffffu)
-
-/// Loops over the leaves of a block or the children of a node, split among the lanes of a team.
-#define EACH(k) for (uint k = lane; k < BLOCK; k += LANES)
-
-/// State of a team, in local memory.
-typedef struct {
-    uint2 kept[KEPT];                    ///< first: an overflow shows in the members behind
-    BoxWord own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last one repeated
-    BoxWord seen[WORDS_PER_BOX * SEEN];  ///< boxes of leaves to be tested
-    uint own_ids[BLOCK];                 ///< triangles of the block
-    uint seen_ids[SEEN];                 ///< labels of those leaves, later their triangles
-    uint stack[STACK];
-    uint rows[WIDE_LEVELS], ends[WIDE_LEVELS];  ///< rows and ends of the other tree's wide levels
-} Team;
-
-/// Tests each leaf of a block against the half of the block that follows it cyclically. Returns the number of buffered pairs.
-static inline uint meet_within(local Team *team, SINK_PARAMETERS, uint kept_count, const uint count)
+/// Returns the box of a leaf, given tree_row of the leaves' level.
+static inline Aabb leaf_box_at(TREE_PARAMETERS, const uint row, const uint leaf)
 {
-    EACH (k) {
-        const Aabb box = load_local_box(team->own, k);
-        uint behind = 0u;  // bit s: overlaps leaf k + s + 1, cyclically
-#pragma unroll
-        for (uint step = 0u; step < BLOCK / 2u; ++step)
-            if (overlap(box, load_local_box(team->own, (k + step + 1u) % BLOCK)))
-                behind |= 1u << step;
-        if (k >= BLOCK / 2u)  // the opposite leaf counts this pair
-            behind &= ~(1u << (BLOCK / 2u - 1u));
-        const uint hits = rotate(behind, k + 1u) & (0xffffffffu >> (BLOCK - count));
-        kept_count =
-            put_hits(SINK, kept_count, team->own_ids[k], team->own_ids, k < count ? hits : 0u);
-    }
-    return kept_count;
+#if SORTED_LEAVES
+    return tree_row_box(TREE, row, leaf);
+#else
+    (void)row;
+    return load_box(leaf_boxes, tree_triangle(TREE, leaf));
+#endif
 }
 
-/// Tests the block's `own_count` leaves against `count` (1 to 32) others from `first` on. Returns the number of buffered pairs.
-static inline uint meet_seen(local Team *team, SINK_PARAMETERS, TREE_PARAMETERS, uint kept_count,
-                             const uint own_count, const uint first, const uint count)
-{
-    EACH (k)
-        if (k < count)
-            team->seen_ids[first + k] = tree_triangle(TREE, team->seen_ids[first + k]);
-    team_fence();
-    EACH (k) {
-        const Aabb box = load_local_box(team->own, k);
-        uint hits = 0u;
-        for (uint others = 0u; others < count; others += 4u) {
-#pragma unroll
-            for (uint other = others; other < others + 4u; ++other)
-                if (overlap(box, load_local_box(team->seen, first + other)))
-                    hits |= 1u << other;
-        }
-        hits &= 0xffffffffu >> (BLOCK - count);
-        kept_count = put_hits(SINK, kept_count, team->own_ids[k], team->seen_ids + first,
-                              k < own_count ? hits : 0u);
-    }
-    team_fence();
-    return kept_count;
-}
-
-/// True if one of a block's boxes overlaps `box`.
-static inline bool meets_any(local const BoxWord *boxes, const Aabb box)
-{
-    bool meets = false;
-#pragma unroll 8
-    for (uint k = 0u; k < BLOCK; ++k)
-        meets |= overlap(load_local_box(boxes, k), box);
-    return meets;
-}
-
-/// Loads the leaves of a task into `team`. True if their common box is loose (LOOSE).
+/// Loads the leaves of a task into `team` and their common box into `common`. True if that is loose (LOOSE).
 static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint lane,
-                              const QueryTask task, const Aabb common)
+                              const QueryTask task, Aabb *common)
 {
+    PICK_TREE(task.own)
+    const uint leaf_level = ceil_log2(leaves), up = min(leaf_level, BLOCK_LEVELS);
+    const uint row = tree_row(TREE, leaf_level), first = tree_leaf(TREE, task.first);
+    *common = tree_box(TREE, first >> up);
     float area = 0.0f;
     EACH (k) {
-        const uint place = task.first + min(k, task.count - 1u);
-        const Aabb box = leaf_box_of(FOREST, task.own, place);
-        store_local_box(team->own, k, box);
-        team->own_ids[k] = leaf_triangle_of(FOREST, task.own, place);
+        const uint leaf = first + min(k, task.count - 1u);
+        const Aabb box = leaf_box_at(TREE, row, leaf);
+        put_box(team->own_low, team->own_high, k, box);
+        team->own_ids[k] = tree_triangle(TREE, leaf);
         area += half_surface(box);
     }
     team_fence();
-    return half_surface(common) > LOOSE * team_sum(area);
+    return half_surface(*common) > LOOSE * team_sum(area);
 }
 
-/// Initialises the stack: with the root, and in the block's own tree with its ancestors on wide levels, the nearest last.
-/// `own_leaf` is the label of the block's first leaf, 0 in another object's tree. Returns the number of entries.
+/// Initialises the stack: with the root, and in the block's own tree with its ancestors on wide levels, the nearest last; and the
+/// table of wide levels. In its own tree a block is tested only against labels after its own path: of the ancestors' descendants
+/// these are all that are new, and whatever is below these comes later too. `own_leaf` is the label of the block's first leaf, 0 in
+/// another object's tree. Returns the number of entries.
 static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
                              const uint own_leaf)
 {
@@ -135,11 +79,12 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
         const uint node = k > 0u ? own_leaf >> (BLOCK_LEVELS * (wide_levels - k))
                           : leaf_level > 0u && leaf_level % BLOCK_LEVELS == 0u ? 1u
                                                                                : 0u;
-        team->stack[k] = ENTRY(wide_levels - k, node);
+        team->stack[k] = ENTRY(node, max(wide_levels - k, 1u) - 1u);
     }
     for (uint k = lane; k < max(wide_levels, 1u); k += LANES) {
-        team->rows[k] = tree_row(TREE, leaf_level - BLOCK_LEVELS * k);
-        team->ends[k] = tree_row_end(TREE, leaf_level - BLOCK_LEVELS * k);
+        const uint level = leaf_level - BLOCK_LEVELS * k;
+        const uint begin = own_leaf == 0u ? 1u << level : (own_leaf >> (BLOCK_LEVELS * k)) + 1u;
+        team->levels[k] = (uint4)(tree_row(TREE, level), begin, tree_row_end(TREE, level) - 1u, 0u);
     }
     team_fence();
     return depth;
@@ -148,67 +93,56 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
 /// Finds the pairs of a task's leaves. Returns the number of box tests, which exceeds 32 bits if the block's box overlaps some 10^8
 /// leaves.
 static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
-                               const QueryTask task, const Aabb common)
+                               const QueryTask task)
 {
+    Aabb common;
     const bool is_own = task.own == task.other;
-    const bool is_loose = load_block(FOREST, team, lane, task, common);
+    const bool is_loose = load_block(FOREST, team, lane, task, &common);
     PICK_TREE(task.other)
-    const uint leaf_level = ceil_log2(leaves);
-    const uint own_leaf = is_own ? tree_leaf(TREE, task.first) : 0u;
     uint tests = 0u, met = 0u, kept_count = 0u, seen = 0u;
     if (is_own) {
         kept_count = meet_within(team, SINK, kept_count, task.count);
         tests = task.count * (task.count - 1u) / 2u;
     }
-    uint waiting = open_walk(TREE, team, lane, own_leaf);
+    uint waiting = open_walk(TREE, team, lane, is_own ? tree_leaf(TREE, task.first) : 0u);
     while (waiting > 0u) {
         --waiting;
-        const uint entry = team->stack[waiting], node = NODE_OF(entry);
-        const uint wide = max(WIDE_OF(entry), 1u) - 1u;  // wide level of the descendants
-        const uint row = team->rows[wide], end = team->ends[wide], first = node << BLOCK_LEVELS;
-        const uint own_below = own_leaf >> (BLOCK_LEVELS * wide);
-        const bool is_ancestor = is_own && own_below >> BLOCK_LEVELS == node;
-        const uint begin = is_ancestor ? own_below + 1u : 1u << (leaf_level - BLOCK_LEVELS * wide);
-        tests += min(end, first + BLOCK) - max(begin, first);
-        team_fence();
+        const uint entry = team->stack[waiting], first = NODE_OF(entry) << BLOCK_LEVELS;
+        const uint wide = WIDE_OF(entry);
+        const uint4 level = team->levels[wide];  // row, first and last label
+        tests += min(level.z + 1u, first + BLOCK) - max(level.y, first);
         EACH (k) {
-            const uint label = first + k;
-            bool meets = label >= begin && label < end;
-            Aabb box;
-            if (meets) {
-                box = SORTED_LEAVES || wide > 0u ? tree_row_box(TREE, row, label)
-                                                 : tree_box(TREE, label);
-                meets = overlap(common, box);
-                if (meets && is_loose)
-                    meets = meets_any(team->own, box);
+            const uint label = first + k, node = min(max(label, level.y), level.z);
+            const Aabb box = SORTED_LEAVES || wide > 0u ? tree_row_box(TREE, level.x, node)
+                                                        : leaf_box_at(TREE, level.x, node);
+            const uint triangle = wide > 0u ? 0u : tree_triangle(TREE, node);
+            bool meets = label >= level.y && label == node && overlap(common, box);
+            if (is_loose && meets)
+                meets = meets_any(team, box);
+            const uint votes = team_vote(meets);  // by now all lanes have read the entry
+            if (wide > 0u) {
+                if (meets)
+                    team->stack[waiting + lanes_before(votes)] = ENTRY(label, wide - 1u);
+                waiting += popcount(votes);
+            } else {
+                const uint place = seen + lanes_before(votes);
+                if (meets) {
+                    put_box(team->seen_low, team->seen_high, place, box);
+                    team->seen_ids[place] = triangle;
+                }
+                seen += popcount(votes);
             }
-            const uint votes = team_vote(meets);
-            const uint place = (wide > 0u ? waiting : seen) + lanes_before(votes);
-            if (meets && wide > 0u)
-                team->stack[place] = ENTRY(wide, label);
-            if (meets && wide == 0u) {
-                store_local_box(team->seen, place, box);
-                team->seen_ids[place] = label;
-            }
-            waiting += wide > 0u ? popcount(votes) : 0u;
-            seen += wide == 0u ? popcount(votes) : 0u;
         }
         team_fence();
         while (seen >= BLOCK || (waiting == 0u && seen > 0u)) {
             const uint many = min(seen, BLOCK);
             seen -= many;
             met += many;
-            kept_count = meet_seen(team, SINK, TREE, kept_count, task.count, seen, many);
+            kept_count = meet_seen(team, SINK, kept_count, task.count, seen, many);
         }
     }
     close_sink(SINK, kept_count);
     return tests + (ulong)met * task.count;
-}
-
-static inline Aabb block_box(FOREST_PARAMETERS, const QueryTask task)
-{
-    PICK_TREE(task.own)
-    return tree_box(TREE, tree_ancestor(TREE, tree_leaf(TREE, task.first), BLOCK_LEVELS));
 }
 
 /// One team per task. `counters` are zero but for what between.cl added. `pairs` receives what fits; everything is counted.
@@ -225,7 +159,7 @@ __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pai
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0) * TEAMS + own);
     ulong tested = 0ul;
     if (task.count > 0u)
-        tested = walk_block(FOREST, team, SINK, task, block_box(FOREST, task));
+        tested = walk_block(FOREST, team, SINK, task);
     if (lane == 0u)
         tests[own] = tested;
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -280,6 +280,20 @@ TEST(Block, FindsMorePairsThanATeamKeeps)
     EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);
 }
 
+TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
+{
+    const Mesh mesh = collinear_mesh(40);
+    std::vector<FaceRange> objects;
+    for (uint k = 0; k < 40; ++k)
+        objects.push_back({k, 1});
+    for (const bool is_sorted : {false, true}) {
+        const auto block = made("block", {.form = KernelForm::groups});
+        expect_oracles_pairs(*block,
+                             Standing(mesh, "oibvh-multi", {.sorted_leaves = is_sorted}, objects));
+        EXPECT_EQ(block->counts(session().queue()).pairs, 39u + 38u);
+    }
+}
+
 // `bvhbench stress`, family repeats, does a thousand.
 TEST(Colliders, FindOneSetOfPairsInAHundredRepeats)
 {
