@@ -4,6 +4,7 @@ from quotes import Document, File, query_us, tree_us, us
 SCENES = ("bend:torus:144046", "bend:torus:1087474", "bend:torus:2880000", "bend:happy_buddha_1087716", "unc_cloth_ball, objects: one",
           "bend:hairball:400000", "bend:grid:1000000", "bend:soup:500000")
 FIRST = "block over oibvh-single (hilbert30, sorted leaves)"
+OUR_REFIT = "oibvh-single, hilbert30, sorted leaves, refit"
 ROWS = {"`group` over `oibvh-multi`, `hilbert30`, sorted leaves": "group over oibvh-multi (hilbert30, sorted leaves)",
         "`group` over `apetrei-fused`": "group over apetrei-fused", "culbvh": "culbvh", "cuBQL, radix": "cubql-radix",
         "cuBQL, rebin radix": "cubql-rebin-radix", "Warp, LBVH": "warp-lbvh",
@@ -36,10 +37,15 @@ def quotes(doc: Document) -> None:
     doc.says("The fastest method from outside takes {} to {} times as long as ours", min(best), max(best))
     doc.says("cuBQL takes {} ms where `block` takes {}", query_us(rivals.cell(SCENES[2], "cubql-rebin-radix")) * 1e-3,
              query_us(first[SCENES[2]]) * 1e-3)
+    walls = [cell.wall_ns * 1e-6 for cell in (rivals.cell(SCENES[0], asked) for asked in ROWS.values()) if cell.outside]
+    doc.says("a frame of torus:144046 takes {} ms with ours and {} to {} with theirs", first[SCENES[0]].wall_ns * 1e-6,
+             min(walls), max(walls))
     doc.says("culbvh's build of this torus, {} ms here", us(rivals.cell(SCENES[0], "culbvh"), "build") * 1e-3)
     doc.under("**Refits**", until="**Trees**")
     for label, asked in REFITS.items():
         doc.row(label, *(tree_us(rivals.cell(scene, asked)) * 1e-3 for scene in SCENES))
+
+    doc.row("`oibvh-single`", *(us(rivals.cell(scene.removesuffix(", objects: one"), OUR_REFIT)) * 1e-3 for scene in SCENES))
 
     doc.under("**Trees**")
     trees = {cell.builder: cell.counters for cell in File("h200/rivals-trees").cells}
