@@ -90,8 +90,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_objects
         result[objects[k]] = bounds;
 }
 
-/// Returns three coordinates, on which a processor works at once.
-static inline float3 at(global const Point* points, const uint vertex)
+/// Returns the coordinates of a vertex as a vector: a processor computes with all three at once.
+static inline float3 point_of(global const Point* points, const uint vertex)
 {
     return vload3(vertex, (global const float*)points);
 }
@@ -105,11 +105,12 @@ static inline Bounds make_run(POINTS_PARAMETERS(), global const Face* faces, glo
            high_centre = high;
     for (uint k = first; k < end; ++k) {
         const Face face = faces[k];
-        const float3 a = at(points, face.a), b = at(points, face.b), c = at(points, face.c);
+        const float3 a = point_of(points, face.a), b = point_of(points, face.b),
+                     c = point_of(points, face.c);
         float3 box_low = min(min(a, b), c), box_high = max(max(a, b), c);
 #if SWEPT
-        const float3 d = at(end_points, face.a), e = at(end_points, face.b),
-                     f = at(end_points, face.c);
+        const float3 d = point_of(end_points, face.a), e = point_of(end_points, face.b),
+                     f = point_of(end_points, face.c);
         box_low = min(box_low, min(min(d, e), f));
         box_high = max(box_high, max(max(d, e), f));
 #endif

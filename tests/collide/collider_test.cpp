@@ -5,7 +5,6 @@
 #include <span>
 
 #include "builders/implicit/tree.h"
-#include "collide/parameters.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {
@@ -126,91 +125,6 @@ TEST_P(ColliderContract, CountsTheSameEveryTime)
 
 INSTANTIATE_TEST_SUITE_P(Catalog, ColliderContract, testing::ValuesIn(cases()), CaseName());
 
-class Bvtt : public testing::TestWithParam<KernelForm> {
-protected:
-    /// Tests every jump up to `most_jump` with every start level.
-    static void expect_oracles_pairs_of_all(const Standing& standing, unsigned most_jump,
-                                            std::initializer_list<unsigned> start_levels)
-    {
-        for (unsigned jump = 1; jump <= most_jump; ++jump)
-            for (const unsigned start_level : start_levels) {
-                SCOPED_TRACE("jump " + std::to_string(jump) + " from level " +
-                             std::to_string(start_level));
-                const auto bvtt =
-                    made("bvtt", {.jump = jump, .start_level = start_level, .form = GetParam()});
-                expect_oracles_pairs(*bvtt, standing);
-                EXPECT_GE(bvtt->counts(session().queue()).bvtt_peak, 1u);
-            }
-    }
-};
-
-TEST_P(Bvtt, FindsTheSameWhateverItJumpsAndWhereverItStarts)
-{
-    for (const std::size_t size : {2u, 3u, 9u, 700u}) {
-        SCOPED_TRACE(size);
-        expect_oracles_pairs_of_all({crowded_mesh(size), "oibvh-multi"}, 5, {0, 1, 3, 7});
-    }
-}
-
-TEST_P(Bvtt, JumpsAndStartsBelowTheRootOfWideTreesAsFarAsTheyAllow)
-{
-    const Standing standing(crowded_mesh(700), "oibvh-wide4");
-    expect_oracles_pairs_of_all(standing, 2, {0, 1, 3, 6});
-    for (const ColliderOptions& options :
-         {ColliderOptions{.jump = 3}, ColliderOptions{.start_level = 7}}) {
-        const auto bvtt = made("bvtt", options);
-        EXPECT_EQ(bvtt->refusal(*standing.tree),
-                  "bvtt jumps at most 2 levels and starts on level 6 at most where a node has 4 "
-                  "children");
-    }
-}
-
-TEST_P(Bvtt, JumpsAndStartsBelowTheRootsOfSeveralObjects)
-{
-    const ManyObjects many({1, 70, 3, 2, 129, 200, 1});
-    expect_oracles_pairs_of_all(many.standing(find_builder("oibvh-multi").make), 3, {0, 3, 12});
-}
-
-TEST_P(Bvtt, TakesTunedLevelsForThoseOfBinaryTrees)
-{
-    Device device = session().device();
-    device.tuning.set(bvtt_start_level, 12);
-    device.tuning.set(bvtt_jump, 4);
-    Programs programs(device);
-    const Standing standing(crowded_mesh(700), "oibvh-wide4");
-    const auto tuned = find_collider("bvtt").make(programs, {.form = GetParam()});
-    expect_oracles_pairs(*tuned, standing);
-    const auto asked = made("bvtt", {.jump = 2, .start_level = 6, .form = GetParam()});
-    expect_oracles_pairs(*asked, standing);
-    EXPECT_EQ(tuned->counts(session().queue()).box_tests,
-              asked->counts(session().queue()).box_tests);
-}
-
-TEST_P(Bvtt, CountsWhatAHandCounts)
-{
-    // Four triangles in a row, each overlapping the next; the levels of the tree are 01 23 and 0 1 2 3.
-    const Standing standing(collinear_mesh(4), "oibvh-multi");
-    const auto bvtt = made("bvtt", {.form = GetParam()});
-    expect_oracles_pairs(*bvtt, standing);
-    const QueryCounts counts = bvtt->counts(session().queue());
-    EXPECT_EQ(counts.pairs, 5u);      // 01 12 23, and 02 13 because triangles are 2.5 long
-    EXPECT_EQ(counts.box_tests, 7u);  // (01, 23); 01; 23; 02 03 12 13
-    EXPECT_EQ(counts.bvtt_peak, 3u);  // (01, 01), (23, 23), (01, 23)
-}
-
-TEST_P(Bvtt, RefusesWhatAnArithmeticWouldBeNeededFor)
-{
-    const Standing standing(crowded_mesh(20), "karras");
-    for (const ColliderOptions& options :
-         {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
-        EXPECT_THROW(made("bvtt", options)->reserve(standing.tree, standing.input), BadUsage);
-    EXPECT_THROW(made("bvtt", {.jump = 6}), BadUsage);
-    EXPECT_THROW(made("bvtt", {.start_level = 13}), BadUsage);
-    EXPECT_THROW(made("bvtt", {.group_size = 48}), BadUsage);
-}
-
-INSTANTIATE_TEST_SUITE_P(Forms, Bvtt, both_forms, CaseName());
-
 TEST(Group, IsRightWhereItsFrontierHasNoRoom)
 {
     for (const char* builder : {"oibvh-multi", "karras", "oibvh-wide4", "oibvh-wide8"})
@@ -258,42 +172,6 @@ TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryImplicitOnesAndFrontLeafBina
     }
 }
 
-TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
-{
-    // Sizes at and next to what five, ten and fifteen levels hold, in an order with jumps and in one without.
-    for (const std::size_t size : {31u, 32u, 1023u, 1024u, 1025u, 32769u})
-        for (const char* order : {"morton30", "kd"}) {
-            SCOPED_TRACE(std::to_string(size) + " triangles, " + order);
-            const auto block = made("block", {.form = KernelForm::groups});
-            const Mesh surface = scene_mesh("torus:" + std::to_string(size));
-            expect_oracles_pairs(*block, Standing(surface, "oibvh-multi", {.order = order}));
-        }
-}
-
-TEST(Block, FindsMorePairsThanATeamKeeps)
-{
-    // The same triangle 200 times: seven blocks, most pairs of which meet in more than 256 pairs of triangles.
-    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>(200, Face{0, 1, 2})};
-    const auto block = made("block", {.form = KernelForm::groups});
-    const Standing standing(mesh, "perfect");
-    expect_oracles_pairs(*block, standing);
-    EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);
-}
-
-TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
-{
-    const Mesh mesh = collinear_mesh(40);
-    std::vector<FaceRange> objects;
-    for (uint k = 0; k < 40; ++k)
-        objects.push_back({k, 1});
-    for (const bool is_sorted : {false, true}) {
-        const auto block = made("block", {.form = KernelForm::groups});
-        expect_oracles_pairs(*block,
-                             Standing(mesh, "oibvh-multi", {.sorted_leaves = is_sorted}, objects));
-        EXPECT_EQ(block->counts(session().queue()).pairs, 39u + 38u);
-    }
-}
-
 // `bvhbench stress`, family repeats, does a thousand.
 TEST(Colliders, FindOneSetOfPairsInAHundredRepeats)
 {
@@ -321,18 +199,6 @@ TEST(Colliders, ThatWantATreeOnTheDeviceRefuseOthers)
     const auto leaf = made("leaf");
     EXPECT_NE(leaf->refusal(*standing.tree), "");
     EXPECT_THROW(leaf->reserve(standing.tree, standing.input), BadUsage);
-}
-
-TEST(Block, CountsWhatAHandCounts)
-{
-    // 40 triangles in a row, each overlapping the next two: blocks of 32 and of 8 leaves.
-    const Standing standing(collinear_mesh(40), "oibvh-multi");
-    const auto block = made("block", {.form = KernelForm::groups});
-    expect_oracles_pairs(*block, standing);
-    const QueryCounts counts = block->counts(session().queue());
-    EXPECT_EQ(counts.pairs, 39u + 38u);
-    const uint within = 32 * 31 / 2 + 8 * 7 / 2, of_nodes = 1 + 8;  // the second block, its leaves
-    EXPECT_EQ(counts.box_tests, within + of_nodes + 2 * 32);  // two of them meet the first block
 }
 
 TEST(Colliders, RefuseTreesWhoseLastLeafHasNoSuccessor)

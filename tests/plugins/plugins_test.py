@@ -68,6 +68,16 @@ def test_a_collider_finds_the_pairs_of_the_oracle():
     assert found["plain"]["counters"]["round_trip_ns"] > 0
 
 
+def test_written_pairs_are_counted_in_each_frame():
+    run("collide", "--plugin", GOOD, "--collider", "halves", "--scene", "cloth-ball:200:3", "--frames", "0:3", "--samples", "2", "--json",
+        "counted.json", PLUGIN_FAULT="on-device")
+    frames = valid("counted.json")["cells"]
+    counts = [cell["counters"]["pairs_count"] for cell in frames]
+    moved = [{stage["moved_bytes"] for sample in cell["samples"] for stage in sample["stages"] if stage["stage"] == "broad"}
+             for cell in frames]
+    assert len(set(counts)) > 1 and moved == [{8 * count} for count in counts], (counts, moved)
+
+
 def test_pairs_from_outside_go_through_our_narrow_phase():
     found = cells("collide", "--plugin", GOOD, "--collider", "halves,brute", "--narrow", "exact", *QUICK)
     assert {cell["check"]["verdict"] for cell in found.values()} == {"agrees"}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Blocks of leaves as queries, `block`.
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+namespace {
+
+TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
+{
+    // Sizes at and next to what five, ten and fifteen levels hold, in an order with jumps and in one without.
+    for (const std::size_t size : {31u, 32u, 1023u, 1024u, 1025u, 32769u})
+        for (const char* order : {"morton30", "kd"}) {
+            SCOPED_TRACE(std::to_string(size) + " triangles, " + order);
+            const auto block = made("block", {.form = KernelForm::groups});
+            const Mesh surface = scene_mesh("torus:" + std::to_string(size));
+            expect_oracles_pairs(*block, Standing(surface, "oibvh-multi", {.order = order}));
+        }
+}
+
+TEST(Block, FindsMorePairsThanATeamKeeps)
+{
+    // The same triangle 200 times: seven blocks, most pairs of which meet in more than 256 pairs of triangles.
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>(200, Face{0, 1, 2})};
+    const auto block = made("block", {.form = KernelForm::groups});
+    const Standing standing(mesh, "perfect");
+    expect_oracles_pairs(*block, standing);
+    EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);
+}
+
+TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
+{
+    const Mesh mesh = collinear_mesh(40);
+    std::vector<FaceRange> objects;
+    for (uint k = 0; k < 40; ++k)
+        objects.push_back({k, 1});
+    for (const bool is_sorted : {false, true}) {
+        const auto block = made("block", {.form = KernelForm::groups});
+        expect_oracles_pairs(*block,
+                             Standing(mesh, "oibvh-multi", {.sorted_leaves = is_sorted}, objects));
+        EXPECT_EQ(block->counts(session().queue()).pairs, 39u + 38u);
+    }
+}
+
+TEST(Block, CountsWhatAHandCounts)
+{
+    // 40 triangles in a row, each overlapping the next two: blocks of 32 and of 8 leaves.
+    const Standing standing(collinear_mesh(40), "oibvh-multi");
+    const auto block = made("block", {.form = KernelForm::groups});
+    expect_oracles_pairs(*block, standing);
+    const QueryCounts counts = block->counts(session().queue());
+    EXPECT_EQ(counts.pairs, 39u + 38u);
+    const uint within = 32 * 31 / 2 + 8 * 7 / 2, of_nodes = 1 + 8;  // the second block, its leaves
+    EXPECT_EQ(counts.box_tests, within + of_nodes + 2 * 32);  // two of them meet the first block
+}
+
+}  // namespace
+}  // namespace bvhbench
