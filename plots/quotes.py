@@ -30,6 +30,7 @@ NUMBER = r"-?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e-?\d+)?"
 NUMBER_PLACE, TEXT_PLACE = rf"(?<![\d.,])(?:\*\*)?({NUMBER})(?:\*\*)?", r"([^|\n]*?)"
 # A number that a measurement may give: it has decimals or thousands. Code and addresses of links are no text.
 LOOSE = re.compile(r"(?<![\w.,:-])(?:\d+\.\d+|\d{1,3}(?:,\d{3})+(?:\.\d+)?)(?![\w.:-]*\w)")
+ONE_SET = ", objects: one"  # of a scene whose objects were one set
 RESULT = re.compile(r"results/[\w-]+/[\w-]+\.json\.xz")
 NO_TEXT = re.compile(r"^```.*?^```|^    .*?$|`[^`]*`|\]\([^)]*\)", re.MULTILINE | re.DOTALL)
 

@@ -1,5 +1,5 @@
 from cells import Cell
-from quotes import Document, File, us
+from quotes import ONE_SET, Document, File, us
 
 LARGE, SMALL = "torus:2880000", "torus:144046"
 KD = "block over oibvh-single (kd, sorted leaves)"
@@ -39,7 +39,7 @@ def builds(doc: Document) -> None:
     def both(file: File, asked: str) -> tuple[Cell, Cell]:
         return file.cell(LARGE, asked), file.cell(SMALL, asked)
 
-    single, kd = both(peers, "oibvh-single"), both(pairs, KD)
+    single, kd = both(peers, "oibvh-single"), tuple(pairs.cell(scene + ONE_SET, KD) for scene in (LARGE, SMALL))
     for label, cells, stage in (("`bounds`", single, "bounds"), ("`codes`", single, "codes"), ("`hierarchy`", single, "hierarchy"),
                                 ("whole build", single, ""), ("`gather`, with sorted leaves", kd, "gather"),
                                 ("`hierarchy` from sorted leaves", kd, "hierarchy"),
