@@ -115,6 +115,13 @@ TEST_P(MediansContract, EqualTheHostsOnHardMeshes)
     }
 }
 
+/// So many leaves that work-items of `chunks`, each of which splits a subtree, run at the same time.
+TEST_P(MediansContract, EqualTheHostsOfMany)
+{
+    expect_equal_to_host(
+        boxes_of(random_mesh(GetParam().shape.form == KernelForm::chunks ? 300'000 : 50'000)));
+}
+
 /// Most centres lie near the middle, so the slab of a median holds more boxes than the kernel compares pairwise.
 TEST_P(MediansContract, EqualTheHostsOfClusters)
 {

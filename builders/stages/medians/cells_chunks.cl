@@ -10,7 +10,7 @@
 /// Splits the `count` leaves of a node, from `first` on, across its cell, and stores its children's cells.
 static inline void halve_by_cell(global const uint4* from, global uint4* to, global Aabb* cells,
                                  const uint first, const uint count, const uint level,
-                                 const uint height, local uint* const slab_counts)
+                                 const uint height, uint* const slab_counts)
 {
     const uint node = first_node(level) + (first >> height);
     const uint child = first_node(level + 1u) + 2u * (first >> height);
@@ -45,7 +45,7 @@ kernel void halve_nodes(global const Bounds* restrict bounds, global uint4* from
                         const uint root_height, const uint level, const uint bottom,
                         const uint writes_ids)
 {
-    local uint slab_counts[MOST_SLABS];
+    uint slab_counts[MOST_SLABS];
     const uint top = root_height - level;
     const uint start = (uint)get_global_id(0) << top;
     const uint here = min(1u << top, count - start);

@@ -25,7 +25,7 @@ static inline Aabb box_of(global const uint4* leaves, const uint count)
 /// Splits the `count` leaves of a node in a block along an axis, where `box` holds their centres.
 static inline void halve_along(global const uint4* from, global uint4* to, const Aabb box,
                                const uint axis, const uint count, const uint left,
-                               local uint* const slab_counts)
+                               uint* const slab_counts)
 {
     const uint slabs = min(count, BLOCK_SLABS);
     CellCut cut;
@@ -46,8 +46,7 @@ static inline float cost_of(global const uint4* leaves, const uint count, const 
 
 /// Splits the `count` leaves of a node in a block by cost.
 static inline void halve_by_cost(global const uint4* from, global uint4* to, const uint count,
-                                 const uint height, const float scale,
-                                 local uint* const slab_counts)
+                                 const uint height, const float scale, uint* const slab_counts)
 {
     const uint left = left_count(count, height);
     if (left == count) {
@@ -162,7 +161,7 @@ kernel void halve_blocks(global const float2* restrict boxes, global uint* restr
                          global uint4* leaves, global uint4* others, const uint count,
                          const uint top)
 {
-    local uint slab_counts[BLOCK_SLABS];
+    uint slab_counts[BLOCK_SLABS];
     const uint start = (uint)get_global_id(0) << top;
     const uint here = min(1u << top, count - start);
     global uint4* const even = leaves + start;
