@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 
+import accuracy_frames
 import accuracy_narrow
 import figure
 import results
@@ -194,7 +195,7 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 # The figures of each axis, by the name of the picture.
 FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
            "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
-           "swept": {"swept": functools.partial(swept.draw_cells, experiment="accuracy")}}
+           "swept": {"swept": functools.partial(swept.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw}}
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:
