@@ -13,10 +13,11 @@ import results
 import style
 from accuracy_points import METHODS, by_input, look
 
-NONE = 1.0  # half the height of the band of points without wrong contacts, in decades
-# Each kind of setting, by the first word of a method's name: its heading in the legend, and its line in the band.
-KINDS = {"exact": ("nothing rounded", 0.66), "narrow": ("narrow phase", 0.22), "boxes": ("boxes of the tree", -0.22),
-         "input": ("vertices' coordinates", -0.66), "all": ("guigue-f32,\nu16 boxes, 12 bits", -0.66)}
+NONE = 2.0  # half the height of the band of settings without wrong contacts, in decades
+ONE = 2.5  # height of one wrong contact
+# The heading in the legend of each kind of setting, which is the first word of a method's name.
+KINDS = {"exact": "nothing rounded", "narrow": "narrow phase", "boxes": "boxes of the tree", "input": "vertices' coordinates",
+         "all": "guigue-f32,\nu16 boxes, 12 bits"}
 MARK = {"markersize": 4.5, "markeredgewidth": 0.9, "linestyle": "none"}
 
 
@@ -43,22 +44,26 @@ def kind_of(method: str) -> str:
     return method.split()[0]
 
 
-def heights(setting: Setting) -> list[float]:
-    """Returns where the setting's points are: above the band for false contacts, below it for missed ones, or inside it."""
-    found = [sign * (NONE + math.log10(count)) for sign, count in ((1, setting.false), (-1, setting.missed)) if count > 0]
-    return found or [NONE * KINDS[kind_of(setting.method)][1]]
+def heights(settings: list[Setting]) -> dict[str, list[float]]:
+    """Returns where the points of each method are: above the band for false contacts, below it for missed ones. Settings without
+    either have a line each in the band, in the order of METHODS."""
+    found = {one.method: [sign * (ONE + math.log10(count)) for sign, count in ((1, one.false), (-1, one.missed)) if count > 0]
+             for one in settings}
+    right = [method for method in METHODS["frames"] if found.get(method) == []]
+    return found | {method: [NONE * (1 - (2 * row + 1) / len(right))] for row, method in enumerate(right)}
 
 
 def label_of(height: float) -> str:
-    power = round(abs(height) - NONE)
+    power = round(abs(height) - ONE)
     return f"{10**power:,}" if power < 4 else f"$10^{{{power}}}$"
 
 
 def draw_scene(axes: plt.Axes, settings: list[Setting]) -> None:
     axes.axhspan(-NONE, NONE, color="#EEEEEE", linewidth=0, zorder=0)
+    places = heights(settings)
     for setting in settings:
         seen, low, middle, high = look("frames", setting.method), *setting.time
-        for height in heights(setting):
+        for height in places[setting.method]:
             axes.errorbar(middle, height, xerr=[[middle - low], [high - middle]], color=seen.colour, marker=seen.marker,
                           markerfacecolor="white", elinewidth=0.8, zorder=3, **MARK)
     low, high = min(one.time.p10 for one in settings) / 1.2, max(one.time.p90 for one in settings) * 1.2
@@ -69,8 +74,8 @@ def draw_scene(axes: plt.Axes, settings: list[Setting]) -> None:
 
 def set_counts(axes: plt.Axes, settings: list[Setting]) -> None:
     """Sets the axis of counts: 0 in the middle, false contacts above and missed ones below, on logarithmic scales."""
-    top, bottom = (NONE + math.ceil(math.log10(max(1, *(getattr(one, name) for one in settings))) + 0.3) for name in ("false", "missed"))
-    ticks = [sign * (NONE + power) for sign, most in ((1, top), (-1, bottom)) for power in range(0, round(most - NONE) + 1, 2)]
+    top, bottom = (ONE + math.ceil(math.log10(max(1, *(getattr(one, name) for one in settings))) + 0.3) for name in ("false", "missed"))
+    ticks = [sign * (ONE + power) for sign, most in ((1, top), (-1, bottom)) for power in range(0, round(most - ONE) + 1, 2)]
     axes.set_ylim(-bottom, top)
     axes.yaxis.set_major_locator(FixedLocator([0, *ticks]))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda height, _: "none" if height == 0 else label_of(height)))
@@ -90,7 +95,7 @@ def draw_legend(axes: plt.Axes, methods: set[str]) -> None:
         handles = []
         for kind in kinds:
             own = [method for method in METHODS["frames"] if method in methods and kind_of(method) == kind]
-            heading = KINDS[kind][0]
+            heading = KINDS[kind]
             if len(own) > 1:
                 handles.append(Line2D([], [], linestyle="none", label=f"{heading}:"))
             for method in own:
@@ -103,7 +108,7 @@ def draw_legend(axes: plt.Axes, methods: set[str]) -> None:
 
 def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     scenes = by_input(cells)
-    drawing, grid, columns = figure.panels(len(scenes) + 1, 2, (0.8, 2.3))
+    drawing, grid, columns = figure.panels(len(scenes) + 1, 2, (0.8, 2.5))
     settings = {scene: settings_of(group) for scene, group in scenes.items()}
     for number, (axes, (scene, group)) in enumerate(zip(grid, scenes.items())):
         draw_scene(axes, settings[scene])

@@ -87,15 +87,14 @@ class Figures(InFolder):
         exact, narrow, none, boxes, coarse, everything = settings
         self.assertEqual((coarse.missed, coarse.false), (26000, 700000))  # of both frames
         self.assertAlmostEqual(exact.time.median, 0.33, places=5)  # mean of 0.30 and 0.36 ms
-        for setting in (exact, boxes):
-            height, = accuracy_frames.heights(setting)
-            self.assertLess(abs(height), accuracy_frames.NONE)
+        heights = accuracy_frames.heights(settings)
+        self.assertEqual([heights[setting.method] for setting in (exact, boxes)], [[accuracy_frames.NONE / 2], [-accuracy_frames.NONE / 2]])
         for setting, above, below in ((narrow, 0, 60), (none, 1400000, 0), (coarse, 700000, 26000), (everything, 6000, 5400)):
-            expected = [sign * (accuracy_frames.NONE + math.log10(count)) for sign, count in ((1, above), (-1, below)) if count]
-            self.assertEqual(accuracy_frames.heights(setting), expected, setting.method)
+            expected = [sign * (accuracy_frames.ONE + math.log10(count)) for sign, count in ((1, above), (-1, below)) if count]
+            self.assertEqual(heights[setting.method], expected, setting.method)
         points = sorted(point for line in scenes[0].lines if line.get_marker() not in ("None", "|", "")
                         for point in line.get_ydata())
-        self.assertEqual(points, sorted(height for setting in settings for height in accuracy_frames.heights(setting)))
+        self.assertEqual(points, sorted(height for those in heights.values() for height in those))
         low, high = scenes[0].get_ylim()
         self.assertTrue(low < points[0] and points[-1] < high, (low, high, points))
         texts = [text.get_text() for one in legend.get_children() if isinstance(one, Legend) for text in one.get_texts()]
