@@ -70,7 +70,7 @@ void LeafOrder::enqueue(const Input& input, Queue& queue)
         return;
     queue.begin("order");
     if (cells_)
-        cells_->enqueue(boxes(), bounds(), ids_, queue);
+        cells_->enqueue(boxes(), bounds(), ids_, blocks_->scratch(), queue);
     blocks_->enqueue(boxes(), ids_, queue);
     number_->enqueue(positions_, queue);
 }

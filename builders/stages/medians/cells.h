@@ -19,7 +19,7 @@ namespace bvhbench {
 /// A node's leaves are split across its cell (geometry/split.h). The cell alone determines the axis, so each level is one pass
 /// over the leaves. The slab of a leaf decides its side, except in the slab that holds the median: its leaves are appended to a
 /// list. A small launch between two passes splits the lists exactly and computes the next level's cuts from the pass's counts
-/// per slab.
+/// per slab. In `chunks`, a work-item splits a subtree node by node, and each split moves the node's leaves.
 class CellMedians {
 public:
     explicit CellMedians(Programs& programs, MedianShape shape = {});
@@ -27,15 +27,16 @@ public:
     /// Takes scratch memory for `size` leaves.
     void plan(Arena& arena, std::size_t size);
 
-    /// Enqueues the splits within the current stage; writes the ids of all leaves to `ids`. Does not block.
+    /// Enqueues the splits within the current stage; writes the ids of all leaves to `ids`. `chunks` overwrites `scratch`, which the
+    /// blocks use afterwards. Does not block.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
-                 Queue& queue);
+                 const MedianLeaves& scratch, Queue& queue);
 
 private:
     void in_groups(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
                    Queue& queue);
     void in_chunks(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
-                   Queue& queue);
+                   const MedianLeaves& scratch, Queue& queue);
     void enqueue_halve(const Buffer<uint>& ids, uint level, Queue& queue);
     uint nodes_on(uint level) const;
     uint slabs_on(uint level) const;
@@ -47,8 +48,10 @@ private:
     uint root_height_ = 0;
     uint levels_ = 0;  ///< Number of levels above the blocks.
     NumberAll number_;
-    cl::Kernel clear_, first_pass_, local_pass_, pass_, last_pass_, halve_, halve_small_;
-    Buffer<Aabb> cells_;    ///< Of the nodes above blocks, level by level.
+    cl::Kernel number_leaves_, clear_, first_pass_, local_pass_, pass_, last_pass_, halve_,
+        halve_small_;
+    Buffer<Aabb> cells_;  ///< Of the nodes above blocks, level by level.
+    // The others are for `groups` only.
     Buffer<CellCut> cuts_;  ///< One per node above blocks.
     Buffer<uint> lefts_;    ///< Per such node: entries of its list that go left.
     Buffer<uint> waiting_;  ///< Per such node: length of its list.

@@ -38,7 +38,9 @@ BlockMedians::BlockMedians(Programs& programs, MedianShape shape) : shape_(shape
 
 void BlockMedians::plan(Arena& arena, std::size_t size)
 {
-    keys_ = arena.take<ulong>(shape_.form == KernelForm::chunks ? size : 0, Use::scratch);
+    const std::size_t leaves = shape_.form == KernelForm::chunks ? size : 0;
+    leaves_.even = arena.take<Leaf>(leaves, Use::scratch);
+    leaves_.odd = arena.take<Leaf>(leaves, Use::scratch);
 }
 
 void BlockMedians::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, Queue& queue)
@@ -49,7 +51,7 @@ void BlockMedians::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, Q
     const std::size_t blocks = divided_up(count, 1u << shape_.block_height);
     const auto moved_bytes = static_cast<std::int64_t>(boxes.bytes() + 2 * ids.bytes());
     if (shape_.form == KernelForm::chunks) {
-        set_arguments(kernel_, boxes, ids, keys_, count, shape_.block_height);
+        set_arguments(kernel_, boxes, ids, leaves_.even, leaves_.odd, count, shape_.block_height);
         queue.launch(kernel_, blocks, 1, moved_bytes);
     } else {
         set_arguments(kernel_, boxes, ids, count);
