@@ -4,11 +4,12 @@
     plots/accuracy.py FILE... --out DIR
 
 narrow: a row a narrow phase, with its worst and its typical class of pairs of triangles; classes: all of them in
-numbers. sums: a panel a scene, a point a way to add areas up. codes: a panel a scene and measure, a point an order, and which is the fastest of build and k queries. input: how
-many pairs of boxes, and what a frame takes, by how far from the origin the scene is. boxes: a panel a scene, a point a
-format, larger the more bytes a box takes. swept: as plots/swept.py. In sums, codes and boxes left and down is better;
-the grey line joins what no other method is as good as in both time and error (the Pareto
-front), and those points are filled.
+numbers. sums: a panel a scene, a point a way to add areas up. codes: a panel a scene and measure, a point an order, and
+which is the fastest of build and k queries. input: how many pairs of boxes, and what a frame takes, by how far from the
+origin the scene is. boxes: a panel a scene, a point a format, larger the more bytes a box takes. swept: as
+plots/swept.py. frames: a panel a scene, a point a setting, false contacts above and missed ones below. In sums, codes
+and boxes left and down is better; the grey line joins what no other method is as good as in both time and error (the
+Pareto front), and those points are filled.
 """
 import functools
 import math
@@ -17,6 +18,7 @@ from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 
+import accuracy_frames
 import accuracy_narrow
 import figure
 import results
@@ -194,7 +196,7 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 # The figures of each axis, by the name of the picture.
 FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
            "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
-           "swept": {"swept": functools.partial(swept.draw_cells, experiment="accuracy")}}
+           "swept": {"swept": functools.partial(swept.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw}}
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:

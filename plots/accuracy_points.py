@@ -28,6 +28,12 @@ METHODS = {
     "input": {"f32": Look("#D55E00", "v"), "f32-recentred": Look("#0072B2", "o")},
     "boxes": {"f32": Look("#0072B2", "o"), "f64": Look("#56B4E9", "o"), "f16": Look("#CC79A7", "o"),
               "u16": Look("#009E73", "o"), "u8": Look("#D55E00", "o"), "u8-node-local": Look("#E69F00", "s")},
+    "frames": {"exact": Look("#000000", "*")}
+              | {f"narrow {name}": Look("#0072B2", marker)
+                 for name, marker in (("guigue-f64", "^"), ("guigue-f32", "v"), ("moller-f32", "s"), ("sat-f32", "D"), ("none", "o"))}
+              | {f"boxes {name}": Look("#009E73", marker) for name, marker in (("f64", "^"), ("f16", "D"), ("u16", "s"), ("u8", "o"))}
+              | {f"input {bits} bits": Look("#D55E00", marker) for bits, marker in ((20, "^"), (16, "s"), (12, "D"), (8, "o"))}
+              | {"all coarse": Look("#CC79A7", "P")},
 }
 
 

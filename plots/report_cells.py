@@ -110,6 +110,8 @@ def errors_of(cell: Cell) -> dict[str, float]:
     if {"missed_count", "false_count", "pairs_count"} <= counters.keys():
         if "right_pairs_count" in counters:
             errors["false pairs for each right one"] = accuracy.inflation(cell)
+        elif "right_contacts_count" in counters:
+            errors["wrong contacts"] = counters["missed_count"] + counters["false_count"]
         elif counters["pairs_count"]:
             errors["share of wrong answers"] = accuracy_narrow.wrong(cell)
     if "relative_error" in counters:

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +15,9 @@
 #include "collide/pairs.h"
 #include "geometry/mesh.h"
 #include "harness/base/terminal.h"
+#include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
+#include "harness/measure/pipeline.h"
 #include "harness/measure/run.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
@@ -54,12 +57,13 @@ struct Axis {
     std::string_view name;      ///< the key on the command line and in result files
     std::string_view question;  ///< one line
     void (*measure_all)(const AxisRun& run) = nullptr;  ///< for an axis that is not about frames
-    /// For an axis about frames: measures a scene's first frame on the device, as one object or, with `by_objects`, as the
-    /// scene's objects. Called for each scene asked for, or for each of own_scenes.
+    /// For an axis about frames: measures a frame of a scene on the device, as one object or, with `by_objects`, as the scene's
+    /// objects. Called for each scene asked for, or for each of own_scenes.
     void (*measure_frame)(const AxisRun& run, const SceneFacts& scene,
                           const Input& input) = nullptr;
-    std::span<const char* const> own_scenes = {};
+    std::span<const char* const> own_scenes = {};  ///< stand-ins may replace them
     bool by_objects = false;
+    std::size_t most_frames = 1;  ///< of a scene, spread over all; 1: the first
 
     /// Adds a cell for each input and method. Without a scene or reference it adds a cell of the method "all" with the reason.
     void measure(const AxisRun& run) const;
@@ -83,6 +87,11 @@ struct AxisMethod {
     ColliderChoice collider = {};
     std::function<void(Subject&)> settle;  ///< as `work` of Engine::settle
 };
+
+/// Returns a method of the fastest pipeline on this kind of device, as far as is known, without its `settle`. Pairs of triangles
+/// that share a vertex are left out.
+AxisMethod fastest_method(const Session& session, std::string name, std::string boxes,
+                          std::string narrow);
 
 /// Adds a cell for each method that the filter accepts: settled, sampled interleaved with the others, and judged.
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
@@ -114,6 +123,10 @@ std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double si
 /// Returns the points rounded to floats, as a file of floats stores them.
 std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how);
 
+/// Returns the points on a grid of 2^bits positions along the longest side of their bounding box, as a fixed-point format of `bits`
+/// bits stores them: each coordinate is rounded to the nearest position and then to a float.
+std::vector<Point> on_a_grid(std::span<const Point> points, unsigned bits);
+
 /// Returns the reference: the pairs of triangles whose boxes in double overlap. Throws Unavailable for 2^24 points or more.
 PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
                                       std::span<const Face> faces);
@@ -132,11 +145,32 @@ std::span<const SumMethod> sum_methods();
 /// Returns the reference cost: areas and sums in long double (64-bit significand on x86).
 long double cost_in_long_double(const HostTree& tree);
 
+/// Judges what a pipeline found after all samples.
+using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
+
+/// Settles a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
+void settle_pipeline(Session& session, const Input& input, Subject& one,
+                     const JudgePipeline& judge);
+
+/// Compares the pairs or contacts found with the correct ones. Writes the counters missed_count and false_count, and returns both.
+Differences count_errors(const PairList& found, const PairList& right, Cell& cell);
+
+/// Points that were rounded, and the input over them.
+struct RoundedInput {
+    std::vector<Point> points;
+    Input input;
+};
+
+/// Uploads points with the faces of `input`.
+std::shared_ptr<RoundedInput> upload_rounded(Session& session, std::vector<Point> points,
+                                             const Input& input);
+
 void measure_narrow(const AxisRun& run);
 void measure_swept(const AxisRun& run);
 void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& input);
+void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& input);
 
 }  // namespace bvhbench

@@ -81,6 +81,25 @@ std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how)
     return std::move(frames[0]);
 }
 
+std::vector<Point> on_a_grid(std::span<const Point> points, unsigned bits)
+{
+    double longest = 0;
+    for (const auto& [wide, narrow] : axes) {
+        const auto [low, high] = std::ranges::minmax(points, {}, narrow);
+        longest = std::max(longest, double{high.*narrow} - double{low.*narrow});
+    }
+    std::vector<Point> moved(points.begin(), points.end());
+    const double cell = longest / (std::exp2(bits) - 1);
+    if (!(cell > 0))
+        return moved;
+    for (const auto& [wide, narrow] : axes) {
+        const double low = std::ranges::min(points, {}, narrow).*narrow;
+        for (Point& p : moved)
+            p.*narrow = static_cast<float>(low + cell * std::round((p.*narrow - low) / cell));
+    }
+    return moved;
+}
+
 PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
                                       std::span<const Face> faces)
 {

@@ -15,29 +15,12 @@
 namespace bvhbench {
 namespace {
 
-using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
-
-/// Settles a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
-void settle_pipeline(Session& session, const Input& input, Subject& one, const JudgePipeline& judge)
-{
-    const auto pipeline =
-        std::make_shared<Pipeline>(session, one.cell.builder, one.cell.collider, input);
-    pipeline->begin_frame({});
-    pipeline->settle(input);
-    one.cell.counters = pipeline->counters();
-    one.once = [&input, pipeline] { return pipeline->once(input); };
-    one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
-}
-
-/// Compares the last pairs with the correct ones. Writes the counters of missed and false pairs, and returns both.
+/// Counts the errors of the last pairs.
 Differences count_pairs(const Pipeline& pipeline, const PairList& right, Cell& cell)
 {
     const PairList found(pipeline.pairs());
-    const Differences wrong = differences(found, right);
-    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
-    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
     cell.check.pairs_hash = found.hash();
-    return wrong;
+    return count_errors(found, right, cell);
 }
 
 /// Writes the surface area cost of the trees over an input, one for each object: the sum of their nodes' costs divided by the
@@ -65,6 +48,48 @@ void add_forest_cost(Session& session, const Input& input, Cell& cell)
 }
 
 }  // namespace
+
+AxisMethod fastest_method(const Session& session, std::string name, std::string boxes,
+                          std::string narrow)
+{
+    return {.name = std::move(name),
+            .builder = {.name = "oibvh-single",
+                        .order = "hilbert30",
+                        .sorted_leaves = true,
+                        .boxes = std::move(boxes)},
+            .collider = {.name = session.device().is_cpu() ? "group" : "block",
+                         .keep_adjacent = false,
+                         .narrow = std::move(narrow)},
+            .settle = {}};
+}
+
+void settle_pipeline(Session& session, const Input& input, Subject& one, const JudgePipeline& judge)
+{
+    const auto pipeline =
+        std::make_shared<Pipeline>(session, one.cell.builder, one.cell.collider, input);
+    pipeline->begin_frame({});
+    pipeline->settle(input);
+    one.cell.counters = pipeline->counters();
+    one.once = [&input, pipeline] { return pipeline->once(input); };
+    one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
+}
+
+Differences count_errors(const PairList& found, const PairList& right, Cell& cell)
+{
+    const Differences wrong = differences(found, right);
+    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+    return wrong;
+}
+
+std::shared_ptr<RoundedInput> upload_rounded(Session& session, std::vector<Point> points,
+                                             const Input& input)
+{
+    auto rounded = std::make_shared<RoundedInput>();
+    rounded->points = std::move(points);
+    rounded->input = upload(session.device(), session.queue(), rounded->points, input.faces);
+    return rounded;
+}
 
 /// Measures what longer codes and other grids gain in the tree and in a query: curve orders on grids over each object and, if
 /// there are several objects, over the scene. Compared with medians (one object only) and a radix tree.
@@ -108,10 +133,6 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
 /// rounding to nearest preserves the order of coordinates, so boxes that overlapped still do.
 void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
-    struct Rounded {
-        std::vector<Point> points;
-        Input input;
-    };
     // Distance from the origin in sizes of the scene. A float has 24 bits, so at 1e7 sizes hardly any detail remains.
     for (const double sizes : {0.0, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const std::vector<WidePoint> wide = turned_and_moved(input.points, sizes);
@@ -119,10 +140,7 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
         std::vector<AxisMethod> methods;
         const auto add = [&](const char* name, Doubles how) {
             const auto settle = [&, how](Subject& one) {
-                const auto floats = std::make_shared<Rounded>();
-                floats->points = rounded(wide, how);
-                floats->input =
-                    upload(run.session.device(), run.session.queue(), floats->points, input.faces);
+                const auto floats = upload_rounded(run.session, rounded(wide, how), input);
                 // The judge keeps the input until all samples are taken.
                 const auto judge = [&, floats](const Pipeline& pipeline, Cell& cell) {
                     const Differences wrong = count_pairs(pipeline, right, cell);
@@ -172,14 +190,8 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
             settle_pipeline(run.session, input, one, judge);
             one.cell.counters["node_bytes"] = static_cast<double>(format.box_bytes());
         };
-        // The fastest collider on this kind of device.
-        methods.push_back(
-            {name,
-             {.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = name},
-             {.name = run.session.device().is_cpu() ? "group" : "block",
-              .keep_adjacent = false,
-              .narrow = "exact"},
-             settle});
+        methods.push_back(fastest_method(run.session, name, name, "exact"));
+        methods.back().settle = settle;
     }
     measure_methods(run, "boxes", scene, methods);
 }

@@ -7,6 +7,7 @@ from console import spread, swept
 from tables import Table, duration, fixed, whole
 
 YARDSTICK = "guigue-f64"
+FRAME_COUNTS = ("pairs_count", "right_contacts_count", "missed_count", "false_count")
 NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32", "sat-f32")
 
 
@@ -107,4 +108,17 @@ def totals(cells: list[Cell]) -> list[str]:
     return said + [f"seed {seed}\n" for seed in sorted({cell.accuracy.get("seed", 0) for cell in measured})]
 
 
-AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "boxes": boxes}
+def frames(cells: list[Cell]) -> str:
+    """Returns one line for each setting of a scene: times are means over its frames, counts are of all of them."""
+    table = Table("<scene", "<setting", "frames", "frame", "pairs", "contacts", "missed", "false", "<verdict")
+    for (scene, method), own in grouped(cells, lambda cell: (cell.scene_facts["name"], cell.accuracy["method"])).items():
+        if without := [cell for cell in own if not cell.has_times]:
+            table.row(scene, method, *[""] * 6, spread.why(without[0]))
+            continue
+        table.row(scene, method, str(len(own)), duration(sum(cell.median_ns() for cell in own) / len(own)),
+                  *(whole(sum(cell.counters[key] for cell in own)) for key in FRAME_COUNTS), own[0].verdict)
+    return table.text()
+
+
+AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "boxes": boxes,
+                                                "frames": frames}

@@ -3,6 +3,7 @@
 // Tests that errors are counted correctly, that references are exact, and that each axis finds errors known to be there.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "collide/narrow/narrow_methods.h"
@@ -121,6 +122,23 @@ TEST(Accuracy, RoundingAddsPairsFarOffAndTakesNoneAway)
         added_last = wrong(Doubles::as_is).false_ones;
     }
     EXPECT_GT(added_last, 100u);
+}
+
+TEST(Accuracy, AGridRoundsEachCoordinateToTheNearestOfItsPositions)
+{
+    // The longest side is from 1 to 8: with three bits its positions are the whole numbers.
+    const std::vector<Point> points = {
+        {1, 10, -3}, {8, 10.4f, -3}, {2.4f, 11.6f, -3}, {2.6f, 10.5f, -3}, {1.25f, 12, -3}};
+    const std::vector<Point> right = {
+        {1, 10, -3}, {8, 10, -3}, {2, 12, -3}, {3, 11, -3}, {1, 12, -3}};
+    const auto equal = [](const std::vector<Point>& a, const std::vector<Point>& b) {
+        return std::ranges::equal(
+            a, b, [](Point p, Point q) { return p.x == q.x && p.y == q.y && p.z == q.z; });
+    };
+    EXPECT_TRUE(equal(on_a_grid(points, 3), right));
+    EXPECT_TRUE(equal(on_a_grid(points, 30), points));  // finer than floats
+    const std::vector<Point> same(3, {5, 6, 7});
+    EXPECT_TRUE(equal(on_a_grid(same, 1), same));
 }
 
 /// Returns the cells of an axis, by "input/method".

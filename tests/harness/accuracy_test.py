@@ -10,7 +10,7 @@ from program import SCHEMA, expect, main, valid
 
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
-    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept"]
+    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept", "frames"]
     methods = [line.split()[0] for line in expect(0, "list", "narrow").splitlines()]
     assert methods[0] == "filter-f64+exact", methods
     out = expect(0, "accuracy", "--axis", "narrow", "--pairs", "60000", "--samples", "2", "--seed", "5", "--out", "a",
@@ -33,7 +33,7 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
            "--out", "b", says="guigue-f64: 0 missed")
     axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
     assert axes == ["narrow", "narrow", "sums", "codes", "boxes"], axes
-    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept")
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept, frames")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
 
@@ -50,6 +50,37 @@ def test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
         assert (cell["counters"]["missed_count"], cell["counters"]["false_count"]) == (0, 0), cell
     assert out.count(" both ") == 4, out
     assert pathlib.Path("d/accuracy-swept.png").exists() or "nothing was drawn" in out
+
+
+def test_accuracy_of_frames_is_exact_until_the_narrow_phase_or_the_vertices_are_rounded():
+    narrow, formats = ([line.split()[0] for line in expect(0, "list", what).splitlines()][1:] for what in ("narrow", "formats"))
+    out = expect(0, "accuracy", "--axis", "frames", "--scene", "cloth-ball:3000:7", "nonsense", "--samples", "2", "--out", "f",
+                 says="exact")
+    *cells, missing = valid("f/accuracy-frames.json")["cells"]
+    assert (missing["scene"]["name"], missing["status"]) == ("nonsense", "skipped"), missing
+    methods = ["exact", *(f"narrow {name}" for name in (*narrow, "none")), *(f"boxes {name}" for name in formats),
+               *(f"input {bits} bits" for bits in (20, 16, 12, 8)), "all coarse"]
+    assert [(cell["scene"]["frame"], cell["accuracy"]["method"]) for cell in cells] == [
+        (frame, method) for frame in (0, 3, 6) for method in methods], cells  # the first, the middle and the last
+    last = {cell["accuracy"]["method"]: cell for cell in cells[-len(methods):]}
+    right = last["exact"]["counters"]["right_contacts_count"]
+    assert right > 50, right
+    for method, cell in last.items():
+        assert cell["status"] == "measured" and len(cell["samples"]) == 2, cell
+        missed, false = cell["counters"]["missed_count"], cell["counters"]["false_count"]
+        if method == "exact" or method.startswith("boxes"):
+            assert (cell["check"]["verdict"], missed, false) == ("agrees", 0, 0), cell
+            assert cell["check"]["contacts_hash"] == last["exact"]["check"]["contacts_hash"], cell
+        else:
+            assert cell["check"]["verdict"] == "counted", cell
+        if method.endswith("bits"):
+            assert cell["counters"]["contacts_count"] == right - missed + false, cell
+    wrong = [sum(last[f"input {bits} bits"]["counters"][name] for name in ("missed_count", "false_count")) for bits in (20, 12, 8)]
+    assert wrong[0] < wrong[1] < wrong[2], wrong
+    assert last["input 8 bits"]["counters"]["missed_count"] > 5, last["input 8 bits"]
+    none = last["narrow none"]["counters"]
+    assert (none["missed_count"], none["false_count"]) == (0, none["pairs_count"] - right), none
+    assert pathlib.Path("f/accuracy-frames.png").exists() or "nothing was drawn" in out
 
 
 def plant(folder, rooms, *faults):

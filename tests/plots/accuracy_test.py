@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 """Tests that figures of accuracy show every method, mark the best ones, and refuse wrong answers."""
+import math
 import statistics
 import unittest
+
+from matplotlib.legend import Legend
 
 from base import GOLDEN, InFolder, golden  # first: it adds plots to sys.path
 
 import accuracy
+import accuracy_frames
 import accuracy_narrow
 import results
 import style
@@ -71,6 +75,31 @@ class Figures(InFolder):
         self.assertEqual([list(line.get_xdata()) for line in pairs.lines], 2 * [[0, 1e3, 1e6]])
         self.assertEqual([max(line.get_ydata()) for line in pairs.lines], [10, 1])
         self.assertEqual(len(frame.lines), 2)
+
+    def test_of_frames_have_false_contacts_above_the_band_of_none_and_missed_ones_below(self) -> None:
+        drawing = self.drawn("frames")
+        *scenes, legend = drawing.axes
+        self.assertEqual([axes.get_title(loc="left").split("\n") for axes in scenes], [
+            ["unc_cloth_ball", "92,230 triangles, 2 frames, 158,000 contacts"],
+            ["funnel* (cloth-funnel:18484)", "18,484 triangles, 2 frames, 800 contacts"]])
+        settings = accuracy_frames.settings_of([cell for cell in self.run_of(self.axis("frames")).cells
+                                                if cell.scene == "unc_cloth_ball"])
+        exact, narrow, none, boxes, coarse, everything = settings
+        self.assertEqual((coarse.missed, coarse.false), (26000, 700000))  # of both frames
+        self.assertAlmostEqual(exact.time.median, 0.33, places=5)  # mean of 0.30 and 0.36 ms
+        heights = accuracy_frames.heights(settings)
+        self.assertEqual([heights[setting.method] for setting in (exact, boxes)], [[accuracy_frames.NONE / 2], [-accuracy_frames.NONE / 2]])
+        for setting, above, below in ((narrow, 0, 60), (none, 1400000, 0), (coarse, 700000, 26000), (everything, 6000, 5400)):
+            expected = [sign * (accuracy_frames.ONE + math.log10(count)) for sign, count in ((1, above), (-1, below)) if count]
+            self.assertEqual(heights[setting.method], expected, setting.method)
+        points = sorted(point for line in scenes[0].lines if line.get_marker() not in ("None", "|", "")
+                        for point in line.get_ydata())
+        self.assertEqual(points, sorted(height for those in heights.values() for height in those))
+        low, high = scenes[0].get_ylim()
+        self.assertTrue(low < points[0] and points[-1] < high, (low, high, points))
+        texts = [text.get_text() for one in legend.get_children() if isinstance(one, Legend) for text in one.get_texts()]
+        self.assertIn("none: pairs of boxes", texts)
+        self.assertIn("the scene in brackets stands in", drawing.texts[0].get_text())
 
     def test_refuse_an_exact_method_that_was_wrong_and_a_method_without_a_look(self) -> None:
         cells = self.axis("narrow")

@@ -174,6 +174,14 @@ class OfTheReport(unittest.TestCase):
         self.assertEqual(answer_of(*made), "exact errs least on bunny: 0.")
         self.assertEqual([row[6] for row in data_of(*made)["findings"][0]["rows"]], [None])
 
+    def test_of_frames_only_those_without_wrong_contacts_are_ranked(self) -> None:
+        made = [{**cell("oibvh-single", ns), "accuracy": {"axis": "frames", "method": method}, "operation": "accuracy",
+                 "counters": {"pairs_count": 9, "right_contacts_count": 3, "missed_count": missed, "false_count": false}}
+                for method, ns, missed, false in (("exact", 300000, 0, 0), ("narrow none", 100000, 0, 6), ("input 8 bits", 200000, 1, 0),
+                                                  ("boxes u8", 600000, 0, 0))]
+        self.assertEqual(answer_of(*made), "exact is soonest on bunny: 300 µs; the next, boxes u8, takes 2.0 times as long.")
+        self.assertEqual([one["errors"] for one in data_of(*made)["cells"]], [{"wrong contacts": count} for count in (0, 6, 1, 0)])
+
     def test_states_are_counted_by_library(self) -> None:
         failed = {"status": "failed", "reason": "why", "samples": []}
         data = data_of({**cell("embree-low"), **failed}, {**cell("karras"), **failed}, cell("perfect"))
@@ -280,6 +288,7 @@ class OfGoldenFiles(unittest.TestCase):
         self.assertEqual(sorted(set(re.findall(r"^seed \d+$", accuracy.text(axes), re.M))), ["seed 1"])
         self.assertIn("guigue-f64: 8,000 missed and 40 false of 150,000 pairs, wrong in 2 of 3 classes\n", accuracy.text(axes))
         self.assertRegex(accuracy.text(axes), r"\ngeneric +filter-f64\+exact +50,000 +20,000 +0 +0 +0.0 % +19.30 +0.41  agrees\n")
+        self.assertRegex(accuracy.text(axes), r"\nunc_cloth_ball +input 8 bits +2 +990 us +1,600,000 +158,000 +26,000 +700,000  counted\n")
         self.assertEqual(accuracy.text(results.everything(GOLDEN / "table1.json")), "")
         found = results.everything(GOLDEN / "stress.json")
         self.assertEqual(show.pages(found), stress.text(found))
