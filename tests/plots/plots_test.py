@@ -41,7 +41,7 @@ class Scripts(InFolder):
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs")}
         scripts["families"] = ("family_bars.py", "families")
-        axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept", "frames")
+        axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept", "frames", "impacts")
         scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in axes}
         for script, file in dict.fromkeys(scripts.values()):  # a script may draw several pictures
             self.made(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
