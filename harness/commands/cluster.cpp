@@ -7,6 +7,7 @@
 #include <bit>
 #include <iostream>
 
+#include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 #include "geometry/names.h"
 #include "harness/base/failure.h"

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 #include "harness/base/python.h"
 #include "harness/base/terminal.h"
@@ -99,6 +100,7 @@ private:
 
     CollideTask task() const
     {
+        check_narrow_of(choice_.collider.narrow, choice_.scene.swept);
         const std::vector<CellChoice> choices = names_.combined_with(choice_);
         CollideTask task;
         static_cast<SceneChoice&>(task) = choice_.scene;

@@ -146,6 +146,7 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
            says="'ccd-1e-4' looks at the way between two frames: it needs swept boxes")
 
     for options, sentence in ((("--narrow", "exact"), "'exact' looks at one moment"),
+                              (("--narrow", "guigue-f64"), "'guigue-f64' looks at one moment; there are: ccd-1e-2, "),
                               (("--contacts", "c.csv", "--narrow", "ccd-1e-4"), "choose by --pairs-of"),
                               (("--adjacent", "keep"), "there are none for --adjacent keep"),
                               (("--objects", "one"), "nobody chooses them"),
