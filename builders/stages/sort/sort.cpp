@@ -52,8 +52,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
                                    {{"GROUP_SIZE", shape.group_size},
                                     {"KEYS_PER_ITEM", shape.keys_per_item},
                                     {"CODE_WORDS", words},
-                                    {"DIGIT_BITS", tile_digit_bits}},
-                                   Optimise::on_gpus);
+                                    {"DIGIT_BITS", tile_digit_bits}});
         };
         digit_bits_ = tile_digit_bits;
         count_ = kernel("count_tiles");
