@@ -7,9 +7,9 @@ narrow: a row a narrow phase, with its worst and its typical class of pairs of t
 numbers. sums: a panel a scene, a point a way to add areas up. codes: a panel a scene and measure, a point an order, and
 which is the fastest of build and k queries. input: how many pairs of boxes, and what a frame takes, by how far from the
 origin the scene is. boxes: a panel a scene, a point a format, larger the more bytes a box takes. swept: as
-plots/swept.py. frames: a panel a scene, a point a setting, false contacts above and missed ones below. In sums, codes
-and boxes left and down is better; the grey line joins what no other method is as good as in both time and error (the
-Pareto front), and those points are filled.
+plots/swept.py. frames: a panel a scene, a point a setting, false contacts above and missed ones below. impacts: a panel
+a scene and query, a point a tolerance. In sums, codes, boxes and impacts left and down is better; the grey line joins
+what no other method is as good as in both time and error (the Pareto front), and those points are filled.
 """
 import functools
 import math
@@ -193,10 +193,30 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
+def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = results.grouped(cells, lambda cell: f"{cell.scene},\n{cell.swept['pairs']}")
+    drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
+    from_zero(grid[0].yaxis, [cell.counters["false_count"] for cell in cells], 1, 1, lambda value: f"{value:,.0f}", 6)
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
+        points = [Point(1e3 * median_s(cell, "narrow"), cell.counters["false_count"], cell.accuracy["method"]) for cell in group]
+        log_times(axes, points)
+        draw_points(axes, "impacts", points)
+        axes.set_title(name, loc="left", fontsize=6.5)
+        axes.set_xlabel("narrow phase, ms")
+        if number % columns == 0:
+            axes.set_ylabel("false pairs")
+    missed = sum(cell.counters["missed_count"] for cell in cells)
+    figure.footer(drawing, run, "accuracy", (
+        f"Pairs found that do not touch between two frames, against CGAL; {missed:,.0f} that do are missed. Left and down is "
+        "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, "impacts", cells, 3))
+    return drawing
+
+
 # The figures of each axis, by the name of the picture.
 FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
            "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
-           "swept": {"swept": functools.partial(swept.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw}}
+           "swept": {"swept": functools.partial(swept.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw},
+           "impacts": {"impacts": draw_impacts}}
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:

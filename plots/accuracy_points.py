@@ -34,6 +34,7 @@ METHODS = {
               | {f"boxes {name}": Look("#009E73", marker) for name, marker in (("f64", "^"), ("f16", "D"), ("u16", "s"), ("u8", "o"))}
               | {f"input {bits} bits": Look("#D55E00", marker) for bits, marker in ((20, "^"), (16, "s"), (12, "D"), (8, "o"))}
               | {"all coarse": Look("#CC79A7", "P")},
+    "impacts": {"ccd-1e-2": Look("#D55E00", "v"), "ccd-1e-4": Look("#E69F00", "s"), "ccd-1e-6": Look("#0072B2", "o")},
 }
 
 

@@ -23,6 +23,7 @@ SKIPS = "collide/skips.cpp"  # rules, and where each is off
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
           "order": ("builders/stages/medians/",), "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
           "narrow": ("collide/narrow/",), "near": ("collide/near",), "exchange": ("cluster/",)}
+OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "exchange")  # of several devices
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh": ("oibvh/", "builders/implicit/"),
@@ -48,7 +49,7 @@ class Work(NamedTuple):
         if collider == "grid":
             return of_collider
         own = next((paths for name, paths in BUILDERS.items() if self.builder.startswith(name)), ())
-        stages = {path for stage in self.stages for path in STAGES.get(stage, own if stage in OF_BUILDER else ())}
+        stages = {path for stage in self.stages for path in (STAGES | OF_SWEPT).get(stage, own if stage in OF_BUILDER else ())}
         return of_collider | (stages - set(own) if self.builder == "oibvh-host" else stages)
 
 
@@ -84,7 +85,8 @@ def programs(document: dict[str, Any]) -> Iterator[tuple[str, bool]]:
 def works(document: dict[str, Any]) -> set[Work]:
     """Returns what the cells of a result file did, or its frames. All kernels were launched for `bvhbench stress`."""
     cells = [Cell(raw) for raw in document.get("cells", [])]
-    found = {Work(cell.builder, cell.collider or "", tuple(cell.samples[0])) for cell in cells if cell.samples}
+    found = {Work(cell.builder, cell.collider or "", tuple(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
+                                                           for stage in cell.samples[0])) for cell in cells if cell.samples}
     found |= {Work(frame["builder"]["name"], frame.get("collider", {}).get("name", ""), OF_FRAME) for frame in frames(document)}
     if document.get("stress"):
         found |= {Work(builder, collider, (*STAGES, *OF_BUILDER)) for builder in BUILDERS for collider in COLLIDERS}

@@ -28,8 +28,10 @@ public:
     std::uint64_t listed() const { return listed_; }
     std::uint64_t colliding() const { return colliding_; }
 
-    /// Calls `add` with the numbers of each line. A missing file has no lines.
-    void read(const std::function<void(std::span<const uint>)>& add)
+    /// Adds to `all` the pair that `pair` makes of the numbers of each line, and to `touching` if it collides. A missing file has
+    /// no lines.
+    void read(const std::function<std::array<uint, 2>(std::span<const uint>)>& pair,
+              GroundTruth::Pairs& all, GroundTruth::Pairs& touching)
     {
         if (!std::filesystem::exists(path_))
             return;
@@ -38,8 +40,10 @@ public:
         std::vector<uint> numbers(columns_.size());
         while (const auto line = lines.next()) {
             line_ = lines.number();
-            parse(*line, numbers);
-            add(numbers);
+            const bool collides = parse(*line, numbers);
+            all.push_back(pair(numbers));
+            if (collides)
+                touching.push_back(all.back());
         }
     }
 
@@ -57,7 +61,8 @@ public:
     }
 
 private:
-    void parse(std::string_view line, std::vector<uint>& numbers)
+    /// Returns whether the pair collides.
+    bool parse(std::string_view line, std::vector<uint>& numbers)
     {
         const auto fields = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
         if (fields != columns_.size() + 1)
@@ -76,7 +81,9 @@ private:
         for (std::size_t k = 0; k < columns_.size(); ++k)
             numbers[k] = next(columns_[k].of, columns_[k].end);
         ++listed_;
-        colliding_ += next("verdict on a collision", 2);
+        const bool collides = next("verdict on a collision", 2) == 1;
+        colliding_ += collides ? 1 : 0;
+        return collides;
     }
 
     std::filesystem::path path_;
@@ -154,14 +161,18 @@ std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts&
     GroundTruth truth{.from_frame = said ? said->from_frame : only_step(scene),
                       .vertex_face = {},
                       .edge_edge = {},
+                      .touching_vertex_face = {},
+                      .touching_edge_edge = {},
                       .swept_vertex_face = facts.swept_vf,
                       .swept_edge_edge = facts.swept_ee};
 
     const std::size_t vertices = scene.frames.front().size();
     PairLines of_vertices(vf, {{"vertex", vertices}, {"face", scene.faces.size()}});
-    of_vertices.read([&](std::span<const uint> n) {
-        truth.vertex_face.push_back({n[0], static_cast<uint>(vertices) + n[1]});
-    });
+    of_vertices.read(
+        [&](std::span<const uint> n) {
+            return std::array{n[0], static_cast<uint>(vertices) + n[1]};
+        },
+        truth.vertex_face, truth.touching_vertex_face);
     of_vertices.expect("pairs", facts.vf_listed, of_vertices.listed());
     of_vertices.expect("pairs that collide", facts.vf_true, of_vertices.colliding());
 
@@ -173,9 +184,11 @@ std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts&
                             std::to_string(b));
         return *place;
     };
-    of_edges.read([&](std::span<const uint> n) {
-        truth.edge_edge.push_back({edge(n[0], n[1]), edge(n[2], n[3])});
-    });
+    of_edges.read(
+        [&](std::span<const uint> n) {
+            return std::array{edge(n[0], n[1]), edge(n[2], n[3])};
+        },
+        truth.edge_edge, truth.touching_edge_edge);
     of_edges.expect("pairs", facts.ee_listed, of_edges.listed());
     of_edges.expect("pairs that collide", facts.ee_true, of_edges.colliding());
     return truth;

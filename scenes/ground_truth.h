@@ -38,6 +38,7 @@ struct GroundTruth {
     std::size_t from_frame = 0;  ///< the step leads from this frame to the next
     Pairs vertex_face;           ///< by indices into vertices_and_faces, in the order of the file
     Pairs edge_edge;             ///< by indices into unique_edges
+    Pairs touching_vertex_face, touching_edge_edge;  ///< those of them that collide
     /// Numbers of pairs whose swept boxes overlap and that share no vertex, as counted by the authors of the data.
     std::optional<std::uint64_t> swept_vertex_face, swept_edge_edge;
 };

@@ -16,14 +16,23 @@
 namespace bvhbench {
 namespace {
 
-// To add a rounded method: add a line here and its kernel code to rounded.clh.
+// To add a rounded method: add a line here and its kernel code to rounded.clh. Methods for swept boxes are last.
 constexpr NarrowMethod catalog[] = {
     {"filter-f64+exact", "floats, then doubles with error bounds, then exact sums: no error", true},
     {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
     {"guigue-f32", "orientations in floats, as computed", false, 2, 32},
     {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},
     {"sat-f32", "projections onto 17 axes in floats, as computed", false, 3, 32},
+    {"ccd-1e-2", "swept: none missed, false ones within 1e-2 of the scene's size", false, 0, 32,
+     1e-2f},
+    {"ccd-1e-4", "swept: none missed, false ones within 1e-4 of the scene's size", false, 0, 32,
+     1e-4f},
+    {"ccd-1e-6", "swept: none missed, false ones within 1e-6 of the scene's size", false, 0, 32,
+     1e-6f},
 };
+
+/// Steps of a method for swept boxes; a pair that needs more is taken to touch.
+constexpr uint most_steps = 64;
 
 constexpr uint pairs_in_block = 512;         ///< that a work-item collects of a kind, on few cores
 constexpr std::size_t groups_per_unit = 32;  ///< most work-groups per compute unit
@@ -51,6 +60,16 @@ bool meet(const Input& input, Pair pair, bool keep_adjacent)
 
 std::span<const NarrowMethod> narrow_methods() { return catalog; }
 
+std::span<const NarrowMethod> moment_narrow_methods()
+{
+    return {std::begin(catalog), std::ranges::find_if(catalog, &NarrowMethod::is_swept)};
+}
+
+std::span<const NarrowMethod> swept_narrow_methods()
+{
+    return narrow_methods().subspan(moment_narrow_methods().size());
+}
+
 const NarrowMethod& find_narrow_method(std::string_view name)
 {
     if (name == "exact")
@@ -60,10 +79,25 @@ const NarrowMethod& find_narrow_method(std::string_view name)
 
 void check_narrow(std::string_view name, bool keep_adjacent)
 {
-    if (name != "none" && !find_narrow_method(name).is_exact && keep_adjacent)
+    if (name == "none")
+        return;
+    const NarrowMethod& method = find_narrow_method(name);
+    if (!method.is_exact && !method.is_swept() && keep_adjacent)
         throw BadUsage("--narrow " + std::string(name) +
                        " cannot tell what triangles that share a corner have beyond it: it needs "
                        "--adjacent drop");
+}
+
+void check_narrow_of(std::string_view name, bool swept)
+{
+    if (name == "none" || find_narrow_method(name).is_swept() == swept)
+        return;
+    const std::string quoted = "'" + std::string(name) + "'";
+    if (!swept)
+        throw BadUsage("the narrow phase " + quoted +
+                       " looks at the way between two frames: it needs swept boxes");
+    throw BadUsage("swept boxes are of the way between two frames, and the narrow phase " + quoted +
+                   " looks at one moment" + there_are(name, names_of(swept_narrow_methods())));
 }
 
 NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
@@ -80,8 +114,15 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     else
         block_pairs_ = pairs_in_block;
     check_narrow(options.method, options.keep_adjacent);
+    check_narrow_of(options.method, is_swept());
     const NarrowMethod& method = find_narrow_method(options.method);
     options_.method = method.name;  // refers to static storage
+    if (is_swept()) {
+        tolerance_ = method.tolerance * *options.swept_size;
+        filter_ = programs.kernel("collide/impacts/impacts.cl", "find_impacts",
+                                  {{"MOST_STEPS", most_steps}});
+        return;
+    }
     if (method.real_bits == 64 && !has_doubles_)
         throw Unavailable(std::string(method.name) + " needs doubles, which the device has not");
     filter_ = compiled_filter(method);
@@ -123,6 +164,7 @@ void NarrowPhase::take_all()
         unsure_ = arena.take<Pair>(unsure_room_, Use::scratch);
         blocks_ = arena.take<Pair>(by_groups() ? 1 : 2 * block_pairs_ * chunks_, Use::scratch);
         contacts_ = arena.take<Pair>(contact_room_, Use::scratch);
+        times_ = arena.take<float>(is_swept() ? contact_room_ : 1, Use::scratch);
     });
 }
 
@@ -138,6 +180,10 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
                         const Buffer<uint>& candidate_counters, Queue& queue)
 {
     assert(arena_ && "reserve first");
+    if (is_swept()) {
+        find_impacts(input, candidates, candidate_counters, queue);
+        return;
+    }
     const std::size_t items = by_groups() ? group_count(candidates.size()) * group_size_ : chunks_;
     const auto contact_room = static_cast<uint>(contacts_.size());
     const auto unsure_room = static_cast<uint>(unsure_.size());
@@ -159,6 +205,18 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
     set_arguments(exact_, input.device_points, input.device_faces, unsure_, unsure_room, contacts_,
                   contact_room, counters_);
     queue.launch(exact_, items, by_groups() ? group_size_ : 1, 0);
+}
+
+void NarrowPhase::find_impacts(const Input& input, const Buffer<Pair>& candidates,
+                               const Buffer<uint>& candidate_counters, Queue& queue)
+{
+    queue.begin("narrow");
+    queue.clear(counters_.cl(), counters_.bytes());
+    set_arguments(filter_, input.device_points, input.device_end_points, input.device_faces,
+                  candidates, candidate_counters, static_cast<uint>(candidates.size()), contacts_,
+                  times_, static_cast<uint>(contacts_.size()), tolerance_, counters_);
+    queue.launch(filter_, by_groups() ? group_count(candidates.size()) * group_size_ : chunks_,
+                 by_groups() ? group_size_ : 1, 0);
 }
 
 void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
@@ -206,6 +264,12 @@ NarrowCounts NarrowPhase::counts(const Queue& queue) const
 std::vector<Pair> NarrowPhase::contacts(const Queue& queue) const
 {
     return first_entries(contacts_, counts(queue).contacts, queue, "the contacts found");
+}
+
+std::vector<float> NarrowPhase::impact_times(const Queue& queue) const
+{
+    assert(is_swept());
+    return first_entries(times_, counts(queue).contacts, queue, "the times of impact");
 }
 
 int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,

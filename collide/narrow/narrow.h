@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The narrow phase: decides which of the pairs that a broad phase found on the device intersect.
+// The narrow phase: decides which of the pairs that a broad phase found on the device intersect, or touch between two frames.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@
 namespace bvhbench {
 
 struct NarrowOptions {
-    /// A name of collide/narrow/narrow_methods.h. Rounded methods can be wrong; they exist to measure how often.
+    /// A name of collide/narrow/narrow_methods.h. Rounded methods can be wrong; they exist to measure how often. Those for swept
+    /// boxes miss nothing.
     std::string_view method = "exact";
     /// True to report pairs that share a vertex index if they meet beyond what they share. False to leave such pairs out; the
     /// candidates normally contain none then.
@@ -28,6 +29,9 @@ struct NarrowOptions {
     std::size_t capacity = 0;
     /// True to decide on the host what floats leave open, as on devices without doubles; `query` then blocks. For tests.
     bool without_doubles = false;
+    /// Of a swept input: the longest side of the box around both frames, which tolerances are shares of. Must be set for the
+    /// methods for swept boxes, and for no others.
+    std::optional<float> swept_size = std::nullopt;
 };
 
 /// Results of a query, by the arithmetic that decided: by_floats, by_doubles and exactly add up to the candidates.
@@ -48,14 +52,22 @@ struct NarrowCounts {
 /// shared vertex or edge. Triangles with the same three indices are the same triangle twice and intersect. Vertices at one
 /// position with two indices are not shared. docs/contacts.md has the details.
 ///
+/// Methods for swept boxes decide which vertices touch which faces, or edges which edges, stored as in scenes/ground_truth.h,
+/// while all vertices move in straight lines from one frame to the next. No pair that touches is missed; one that does not may
+/// be found if it comes nearer than the tolerance or too near to tell. Pairs that share a vertex are left out. docs/swept.md
+/// has the details.
+///
 /// The number of candidates stays on the device. No contact is dropped silently: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
-    /// Throws BadUsage as check_narrow does, and Unavailable if the method needs doubles that the device lacks.
+    /// Throws BadUsage as check_narrow and check_narrow_of do, and Unavailable if the method needs doubles that the device lacks.
     NarrowPhase(Programs& programs, const NarrowOptions& options);
 
     /// Reserves memory for about as many contacts as triangles. Never timed. Throws Unavailable.
     void reserve(std::size_t triangles);
+
+    /// True of methods for swept boxes.
+    bool is_swept() const { return options_.swept_size.has_value(); }
 
     /// Memory reserved at present.
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }
@@ -73,11 +85,17 @@ public:
     NarrowCounts counts(const Queue& queue) const;
     std::vector<Pair> contacts(const Queue& queue) const;
 
+    /// For each of contacts(), a time from 0 to 1 before which it does not touch, in units of the step. Only of methods for swept
+    /// boxes. Blocks.
+    std::vector<float> impact_times(const Queue& queue) const;
+
 private:
     bool by_groups() const { return form_ == KernelForm::groups; }
     cl::Kernel compiled_filter(const NarrowMethod& method);
     std::size_t group_count(std::size_t candidates) const;
     void take_all();
+    void find_impacts(const Input& input, const Buffer<Pair>& candidates,
+                      const Buffer<uint>& candidate_counters, Queue& queue);
     void decide_on_host(const Input& input, Queue& queue);
 
     Programs& programs_;
@@ -85,6 +103,7 @@ private:
     KernelForm form_;
     bool has_doubles_;
     bool is_exact_;
+    float tolerance_ = 0;  ///< a length, for methods for swept boxes
     std::size_t chunks_;
     uint group_size_ = 1;
     uint block_pairs_ = 0;  ///< pairs of each kind that a work-item of the chunk form buffers
@@ -93,6 +112,7 @@ private:
     cl::Kernel filter_;
     cl::Kernel exact_;
     Buffer<Pair> contacts_;
+    Buffer<float> times_;    ///< of contacts, for methods for swept boxes
     Buffer<Pair> unsure_;    ///< candidates left to exact arithmetic
     Buffer<Pair> blocks_;    ///< blocks of the chunk form
     Buffer<uint> counters_;  ///< layout: collide/narrow/narrow_words.h

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "collide/oracles/exact_reference.h"
+#include "collide/oracles/swept_reference.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -8,6 +9,12 @@ PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, std::
                             bool)
 {
     throw Unavailable("this build has no CGAL to tell which triangles intersect");
+}
+
+std::vector<Impact> touching_on_the_way(std::span<const Point>, std::span<const Point>,
+                                        std::span<const Face>, std::span<const Pair>)
+{
+    throw Unavailable("this build has no CGAL to tell what touches between two frames");
 }
 
 }  // namespace bvhbench

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The axis swept: pairs of boxes swept between two frames, by several pipelines, against the sweep, pairs known to collide
-// during the step, and counts published with the data.
+// The axes of steps between two frames. swept: pairs of swept boxes, by several pipelines, against the sweep, pairs known to
+// collide during the step, and counts published with the data. impacts: what touches, by each narrow phase, against CGAL too.
+#include "collide/narrow/narrow_methods.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
 #include "harness/measure/collide.h"
@@ -34,8 +35,8 @@ std::vector<NamedScene> scenes_of(const AxisRun& run)
         return scenes;
     for (const auto& [name, generated] : own_scenes)
         if (located(*manifest_entry(name), run.session.scenes().data).empty()) {
-            run.progress.note("accuracy, swept: " + std::string(name) + " is not there, " +
-                              generated + " in its place");
+            run.progress.note("accuracy: " + std::string(name) + " is not there, " + generated +
+                              " in its place");
             scenes.emplace_back(generated, name);
         } else {
             scenes.emplace_back(name, "");
@@ -69,9 +70,10 @@ std::string method_of(const BuilderChoice& builder, const ColliderChoice& collid
     return text + (builder.sorted_leaves ? ", sorted leaves" : "");
 }
 
-}  // namespace
-
-void measure_swept(const AxisRun& run)
+/// Measures pipelines over the steps of an axis's scenes. `method` returns what the axis calls a pipeline.
+void measure_steps(
+    const AxisRun& run, const std::string& axis, const std::vector<PipelineChoice>& pipelines,
+    const std::function<std::string(const BuilderChoice&, const ColliderChoice&)>& method)
 {
     for (const auto& [scene, missing_scene] : scenes_of(run)) {
         CollideTask task;
@@ -79,26 +81,42 @@ void measure_swept(const AxisRun& run)
         task.scene = scene;
         task.may_stand_in = true;
         task.swept = true;
-        task.pipelines = pipelines();
+        task.pipelines = pipelines;
         task.samples = run.task.samples;
         task.warm_up = 1;
         std::erase_if(task.pipelines, [&](const PipelineChoice& one) {
-            return !run.task.wants(task.scene, method_of(one.builder, one.collider));
+            return !run.task.wants(task.scene, method(one.builder, one.collider));
         });
         if (task.pipelines.empty())
             continue;
-        run.progress.note("accuracy, swept: " + scene);
+        run.progress.note("accuracy, " + axis + ": " + scene);
         const std::string& missing = missing_scene;
         collide_frames(run.session, task, run.order, [&](std::vector<Cell>&& cells, const Found&) {
             for (Cell& cell : cells) {
                 cell.operation = Operation::accuracy;
                 if (!missing.empty())
                     cell.scene.stand_in_for = missing;
-                cell.accuracy = {.axis = "swept", .method = method_of(cell.builder, cell.collider)};
+                cell.accuracy = {.axis = axis, .method = method(cell.builder, cell.collider)};
                 run.add(std::move(cell));
             }
         });
     }
+}
+
+}  // namespace
+
+void measure_swept(const AxisRun& run) { measure_steps(run, "swept", pipelines(), method_of); }
+
+void measure_impacts(const AxisRun& run)
+{
+    std::vector<PipelineChoice> all;
+    for (const NarrowMethod& method : swept_narrow_methods())
+        all.push_back({{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true},
+                       {.name = run.session.device().is_cpu() ? "group" : "block",
+                        .narrow = std::string(method.name)}});
+    measure_steps(run, "impacts", all, [](const BuilderChoice&, const ColliderChoice& collider) {
+        return collider.narrow;
+    });
 }
 
 }  // namespace bvhbench

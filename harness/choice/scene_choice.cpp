@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "builders/orders.h"
+#include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -54,15 +55,14 @@ std::string frame_range_text(const FrameRange& range)
 
 void check_swept(const CollideTask& task)
 {
+    for (const PipelineChoice& pipeline : task.pipelines)
+        check_narrow_of(pipeline.collider.narrow, task.swept);
+    if (!task.swept)
+        return;
     if (task.objects != ObjectsBy::automatic)
         throw BadUsage(
             "swept, objects are the scene's vertices, faces and edges, and nobody chooses them");
     for (const PipelineChoice& pipeline : task.pipelines) {
-        if (pipeline.collider.narrow != "none")
-            throw BadUsage(
-                "swept boxes tell who may meet between two frames, and no narrow phase here tells "
-                "who does: '" +
-                pipeline.collider.narrow + "' looks at one moment");
         if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
             find_order(pipeline.builder.order).medians != Medians::nowhere)
             throw BadUsage("order " + pipeline.builder.order +

@@ -57,7 +57,7 @@ struct CollideTask : SceneChoice {
     Note note = {};            ///< told before and during work that takes long; may be empty
 };
 
-/// Throws BadUsage for options that are invalid with swept boxes. Needs no scene.
+/// Throws BadUsage for options that are invalid with swept boxes, or without. Needs no scene.
 void check_swept(const CollideTask& task);
 
 }  // namespace bvhbench

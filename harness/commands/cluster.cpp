@@ -7,6 +7,7 @@
 #include <bit>
 #include <iostream>
 
+#include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 #include "geometry/names.h"
 #include "harness/base/failure.h"
@@ -115,6 +116,7 @@ private:
         task_.pipeline.collider.keep_adjacent = choice_.collider.keep_adjacent;
         task_.pipeline.collider.narrow = choice_.collider.narrow;
         check_choice({task_.pipeline.builder, task_.pipeline.collider});
+        check_narrow_of(task_.pipeline.collider.narrow, false);
         find_order(task_.pipeline.builder.order);
         task_.wants_pairs = !pairs_.empty();
         if (task_.wants_pairs)

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 #include "harness/base/python.h"
 #include "harness/base/terminal.h"
@@ -51,7 +52,7 @@ public:
         Output json(json_, "--json", rules);
         ResultFile results(std::move(json), measured_facts(session, invocation.words),
                            watchdog::run_id());
-        PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept);
+        PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept, task.swept);
         watchdog::go_on_with(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.programs().compile_ns());
@@ -84,22 +85,22 @@ private:
         }
     }
 
-    /// Throws BadUsage for options that are invalid with swept boxes.
-    void check_swept_words(const CollideTask& task) const
+    /// Throws BadUsage for words that are invalid with swept boxes.
+    void check_swept_words() const
     {
         if (adjacent_->count() > 0 && choice_.collider.keep_adjacent)
             throw BadUsage(
                 "--swept leaves out pairs that share a vertex, which touch all the way: there are "
                 "none for --adjacent keep");
-        check_swept(task);
-        if (!pairs_.empty() && choice_.collider.among == Among::all)
+        if (!(pairs_.empty() && contacts_.empty()) && choice_.collider.among == Among::all)
             throw BadUsage(
-                "--pairs writes one list, and --swept finds two: choose by --pairs-of between, of "
-                "vertices and faces, or within, of edges");
+                "--pairs and --contacts write one list each, and --swept finds two: choose by "
+                "--pairs-of between, of vertices and faces, or within, of edges");
     }
 
     CollideTask task() const
     {
+        check_narrow_of(choice_.collider.narrow, choice_.scene.swept);
         const std::vector<CellChoice> choices = names_.combined_with(choice_);
         CollideTask task;
         static_cast<SceneChoice&>(task) = choice_.scene;
@@ -112,8 +113,9 @@ private:
         task.samples = samples_;
         task.wants_lists = !pairs_.empty() || !contacts_.empty();
         sampling_.apply(task.sampling);
+        check_swept(task);
         if (task.swept) {
-            check_swept_words(task);
+            check_swept_words();
             for (PipelineChoice& pipeline : task.pipelines)
                 pipeline.collider.keep_adjacent = false;
         }
@@ -141,7 +143,7 @@ private:
                         return;
                     const auto frame = static_cast<std::size_t>(cells.front().scene.frame);
                     pairs.add(found.pairs, frame, *found.scene);
-                    contacts.add(found.contacts, frame, *found.scene);
+                    contacts.add(found.contacts, frame, *found.scene, found.times);
                 },
                 [&](std::size_t cells) { return results.pass(cells); });
         }
@@ -177,7 +179,9 @@ extern const CommandEntry collide_command = {
       "--skips",
       "between objects, and what leaving work out saves"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept",
-      "what may meet between frames"}},
+      "what may meet between frames"},
+     {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept --narrow ccd-1e-4",
+      "and what does, and when"}},
     "docs/collisions.md",
     make_command<Collide>};
 

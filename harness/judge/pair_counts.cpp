@@ -36,8 +36,9 @@ std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input)
         see(pair.a);
         see(pair.b);
     }
+    const std::int64_t frames = input.is_swept() ? 2 : 1;
     return std::count(faces.begin(), faces.end(), true) * std::int64_t{sizeof(Face)} +
-           std::count(points.begin(), points.end(), true) * std::int64_t{sizeof(Point)};
+           std::count(points.begin(), points.end(), true) * frames * std::int64_t{sizeof(Point)};
 }
 
 void add_moved_bytes(std::vector<StageTime>& stages, std::string_view stage, std::int64_t bytes)

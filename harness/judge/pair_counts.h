@@ -33,8 +33,8 @@ struct Differences {
 
 Differences differences(const PairList& found, const PairList& right);
 
-/// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once: the least that a narrow phase must
-/// read (docs/measuring.md, Bytes moved).
+/// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once, points of a swept input in both
+/// frames: the least that a narrow phase must read (docs/measuring.md, Bytes moved).
 std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input);
 
 /// Adds `bytes` to the bytes moved of `stage`, if it has launches.

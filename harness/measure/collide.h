@@ -21,6 +21,8 @@ namespace bvhbench {
 struct Found {
     const Scene* scene = nullptr;  ///< valid only during the call
     PairList pairs = {}, contacts = {};
+    std::vector<float> times =
+        {};  ///< of contacts between two frames: a time before which each does not touch
 };
 
 /// Returns the task's scene, with its objects split as chosen and the frames in between added. Throws what loading it throws.

@@ -71,10 +71,13 @@ Differences count_errors(const PairList& found, const PairList& expected, const 
     return wrong;
 }
 
-/// Counts the errors of a narrow phase that is not exact.
-void hold_inexact(const PairList& found, const PairList& expected, Cell& cell)
+/// Counts the errors of a narrow phase that is not exact. One for swept boxes may find what does not touch, and misses nothing.
+void hold_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
 {
     const Differences wrong = count_errors(found, expected, "", cell);
+    if (!may_miss && (wrong.missed > 0 || found.surplus() > 0))
+        cell.check.find_wrong(std::to_string(found.surplus()) + " contacts were found twice, " +
+                              std::to_string(wrong.missed) + " missed; ");
     if (cell.check.verdict == Check::Verdict::agrees)
         cell.check.verdict = Check::Verdict::counted;
     cell.check.detail += wrong.text("contacts");
@@ -151,7 +154,7 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
                 contacts.hold("contacts", check);
             else
-                hold_inexact(contacts.list(), right.list().list, cell);
+                hold_inexact(contacts.list(), right.list().list, !frame.input.is_swept(), cell);
             found.contacts = contacts.in_file(frame, check.contacts_hash);
         } else {
             if (check.verdict == Check::Verdict::agrees) {
@@ -162,6 +165,8 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
             check.contacts_hash = found.contacts.hash();
         }
     }
+    if (frame.wants_lists)
+        found.times = pipeline.impact_times();
     if (frame.judge_more)
         frame.judge_more(found, cell);
 }

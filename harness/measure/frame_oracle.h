@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "collide/oracles/box_pairs.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/swept_reference.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/terminal.h"
@@ -145,9 +147,13 @@ public:
         Right& contacts = entries_[asked].contacts;
         if (!contacts.is_asked())
             contacts = Right(key_of(asked, 'c'), note_, [this, asked, pairs] {
-                return Answer(intersecting_pairs(input_.points, input_.faces,
-                                                 pairs.get().list.pairs(), asked.second),
-                              file_faces_);
+                const std::span<const Pair> candidates = pairs.get().list.pairs();
+                return Answer(
+                    input_.is_swept()
+                        ? pairs_of(touching_on_the_way(input_.points, input_.end_points,
+                                                       input_.faces, candidates))
+                        : intersecting_pairs(input_.points, input_.faces, candidates, asked.second),
+                    file_faces_);
             });
         return contacts;
     }

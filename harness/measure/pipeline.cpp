@@ -18,6 +18,18 @@ unsigned rules_without(FrameUpdate update)
                                           : 0;
 }
 
+/// Returns the longest side of the box around both frames of a swept input; nothing for another input.
+std::optional<float> swept_size(const Input& input)
+{
+    if (!input.is_swept())
+        return std::nullopt;
+    Aabb box = empty_box();
+    for (const auto& points : {input.points, input.end_points})
+        for (const Point p : points)
+            box = merged(box, triangle_box(p, p, p));
+    return std::max({box.max_x - box.min_x, box.max_y - box.min_y, box.max_z - box.min_z});
+}
+
 /// Throws BadUsage if trees cannot be made as chosen.
 void check_trees(const ColliderChoice& choice, const Collider& collider, const Builder* builder)
 {
@@ -50,12 +62,9 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         skip_rules_off(collider.rules_off | rules_without(collider.update), collider.rules_forced,
                        on_cpu, input.triangle_count());
     collider_ = make_collider(used, session.programs());
-    if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
-        throw BadUsage(
-            std::string("swept boxes tell who may meet between two frames, not who does: ") +
-            (collider_->finds_contacts() ? "the collider " + collider.name
-                                         : "a narrow phase, " + collider.narrow + ",") +
-            " looks at one moment");
+    if (input.is_swept() && collider_->finds_contacts())
+        throw BadUsage("swept boxes are of the way between two frames, and the collider " +
+                       collider.name + " looks at one moment");
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
     check_trees(collider, *collider_, builder_.get());
@@ -63,7 +72,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     if (collider.narrow != "none" && !collider_->finds_contacts()) {
         narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,
-                                                          .form = collider.form});
+                                                          .form = collider.form,
+                                                          .swept_size = swept_size(input)});
         narrow_->reserve(input.triangle_count());
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
@@ -207,9 +217,12 @@ void Pipeline::declare_found(std::vector<StageTime>& stages) const
     };
     const std::int64_t pairs = bytes(collider_->counts(queue).pairs);
     add_moved_bytes(stages, "broad", pairs);
-    if (narrow_)
-        add_moved_bytes(stages, "narrow",
-                        pairs + bytes(narrow_->counts(queue).contacts) + corner_bytes_);
+    if (!narrow_)
+        return;
+    const std::uint64_t contacts = narrow_->counts(queue).contacts;
+    const auto times =
+        static_cast<std::int64_t>(narrow_->is_swept() ? contacts * sizeof(float) : 0);
+    add_moved_bytes(stages, "narrow", pairs + bytes(contacts) + times + corner_bytes_);
 }
 
 std::vector<StageTime> Pipeline::once(const Input& input)
@@ -231,6 +244,22 @@ std::vector<Pair> Pipeline::pairs() const
 std::vector<Pair> Pipeline::contacts() const
 {
     return narrow_ && queries() ? narrow_->contacts(session_.queue()) : pairs();
+}
+
+std::vector<float> Pipeline::impact_times() const
+{
+    if (!narrow_ || !narrow_->is_swept())
+        return {};
+    const std::vector<Pair> pairs = contacts();
+    const std::vector<float> times = narrow_->impact_times(session_.queue());
+    std::vector<std::pair<Pair, float>> both;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+        both.emplace_back(pairs[k], times[k]);
+    std::ranges::sort(both);
+    std::vector<float> sorted;
+    for (const auto& [pair, time] : both)
+        sorted.push_back(time);
+    return sorted;
 }
 
 }  // namespace bvhbench

@@ -44,6 +44,8 @@ public:
     bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
     std::vector<Pair> pairs() const;     ///< in any order; requires has_pairs()
     std::vector<Pair> contacts() const;  ///< in any order; requires has_contacts()
+    /// Of the contacts between two frames, sorted by their pairs, NarrowPhase::impact_times(). Empty for contacts of one frame.
+    std::vector<float> impact_times() const;
     std::map<std::string, double> counters() const;
 
     /// Host times, in ns, of what no stage holds: `upload_ns` copies the frame's points to the device, `read_back_ns` copies the

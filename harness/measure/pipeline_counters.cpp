@@ -91,6 +91,8 @@ std::map<std::string, double> Pipeline::counters() const
         put("narrow_float_count", narrow.by_floats);
         put("narrow_double_count", narrow.by_doubles);
         put("narrow_exact_count", narrow.exactly);
+        if (narrow_->is_swept() && narrow.contacts > 0)
+            put("earliest_impact", std::ranges::min(narrow_->impact_times(queue)));
         put("narrow_bytes", narrow_->reserved().total());
         memory += narrow_->reserved().total();
     }

@@ -16,6 +16,7 @@ struct Question {
     Among among;
     SweptParts parts;
     GroundTruth::Pairs GroundTruth::*listed;
+    GroundTruth::Pairs GroundTruth::*touching;  ///< those of them that collide
     std::optional<std::uint64_t> GroundTruth::*counted;
     Input input = {};
     std::vector<Running> running = {};  ///< the pipelines that take part in it
@@ -32,12 +33,14 @@ std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
     return static_cast<std::uint64_t>(std::count_if(listed.begin(), listed.end(), is_missed));
 }
 
-/// Checks what was found against the ground truth of this step.
-void judge_step(const GroundTruth::Pairs& listed, const std::optional<std::uint64_t>& counted,
-                const PairList& found, Cell& cell)
+/// Checks what was found against the ground truth of this step: contacts, if there are any, must hold what collides.
+void judge_step(const Question& question, const GroundTruth& truth, const Found& found, Cell& cell)
 {
+    const bool has_contacts = cell.collider.narrow != "none";
+    const GroundTruth::Pairs& listed = truth.*(has_contacts ? question.touching : question.listed);
+    const std::optional<std::uint64_t>& counted = truth.*question.counted;
     if (!listed.empty()) {
-        const std::uint64_t missed = missed_of(listed, found);
+        const std::uint64_t missed = missed_of(listed, has_contacts ? found.contacts : found.pairs);
         cell.counters["ground_truth_pairs"] = static_cast<double>(listed.size());
         cell.counters["ground_truth_missed"] = static_cast<double>(missed);
         cell.check.against += ", ground truth";
@@ -48,7 +51,8 @@ void judge_step(const GroundTruth::Pairs& listed, const std::optional<std::uint6
         cell.counters["reference_pairs_count"] = static_cast<double>(*counted);
         cell.check.against += ", meta.json";
         const bool may_be_more = find_box_format(cell.builder.boxes).has_cells();
-        if (may_be_more ? found.size() < *counted : found.size() != *counted)
+        const std::size_t pairs = found.pairs.size();
+        if (may_be_more ? pairs < *counted : pairs != *counted)
             cell.check.find_wrong("meta.json counts " + std::to_string(*counted) + " pairs");
     }
 }
@@ -79,10 +83,12 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                           "' has one; bend:" + task.scene + " has two");
     const FrameRange steps = frames_of(task, scene.frames.size() - 1, "steps");
 
-    Question questions[] = {{"vertex-face", Among::between_objects, vertices_and_faces(scene),
-                             &GroundTruth::vertex_face, &GroundTruth::swept_vertex_face},
-                            {"edge-edge", Among::within_objects, unique_edges(scene),
-                             &GroundTruth::edge_edge, &GroundTruth::swept_edge_edge}};
+    Question questions[] = {
+        {"vertex-face", Among::between_objects, vertices_and_faces(scene),
+         &GroundTruth::vertex_face, &GroundTruth::touching_vertex_face,
+         &GroundTruth::swept_vertex_face},
+        {"edge-edge", Among::within_objects, unique_edges(scene), &GroundTruth::edge_edge,
+         &GroundTruth::touching_edge_edge, &GroundTruth::swept_edge_edge}};
     for (Question& question : questions) {
         question.contest = Contest(task.sampling.race);
         for (PipelineChoice pipeline : task.pipelines) {
@@ -123,8 +129,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
             if (truth && truth->from_frame == step) {
                 now.wants_lists = true;
                 now.judge_more = [&](const Found& found, Cell& cell) {
-                    judge_step((*truth).*question.listed, (*truth).*question.counted, found.pairs,
-                               cell);
+                    judge_step(question, *truth, found, cell);
                 };
             }
             Found found{.scene = &scene};

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "collide/oracles/box_pairs.h"
+#include "collide/oracles/exact_reference.h"
 #include "harness/measure/collide.h"
 #include "harness/measure/pipeline.h"
 #include "scenes/generate/derived.h"
@@ -208,7 +209,7 @@ TEST(SweptBoxes, OfAllBuildersAreThoseOfTheReferenceOrAreRefused)
     }
 }
 
-TEST(SweptBoxes, HaveNoNarrowPhase)
+TEST(SweptBoxes, TakeNoNarrowPhaseOfOneMoment)
 {
     const Scene scene = falling_triangle();
     const SweptParts edges = unique_edges(scene);
@@ -310,6 +311,30 @@ TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)
         EXPECT_EQ(cells[k].counters.at("ground_truth_pairs"), listed[k]);
         EXPECT_EQ(cells[k].counters.at("ground_truth_missed"), 0);
     }
+}
+
+TEST(SweptSteps, OfDataFindAllThatTouchesAndAFewBesides)
+{
+    if (const char* folder = std::getenv("BVHBENCH_DATA"); folder == nullptr || *folder == '\0')
+        GTEST_SKIP() << "no data folder";
+    if (!has_exact_reference)
+        GTEST_SKIP() << "built without CGAL: there is no reference";
+    CollideTask task;
+    task.scene = "ipc_armadillo_rollers";
+    ColliderChoice collider = {
+        .name = "group", .among = Among::between_objects, .narrow = "ccd-1e-4"};
+    task.pipelines = {
+        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true}, collider}};
+    const std::vector<Cell> cells = cells_of(task);
+    ASSERT_EQ(cells.size(), 1u);
+    const auto& counters = cells.front().counters;
+    EXPECT_EQ(cells.front().check.verdict, Check::Verdict::counted) << cells.front().check.detail;
+    EXPECT_EQ(counters.at("missed_count"), 0);
+    EXPECT_EQ(counters.at("ground_truth_pairs"), 4650);
+    EXPECT_EQ(counters.at("ground_truth_missed"), 0);
+    // The reference finds what the data's author found.
+    EXPECT_EQ(counters.at("contacts_count") - counters.at("false_count"), 4650);
+    EXPECT_LT(counters.at("false_count"), 4650);
 }
 
 }  // namespace

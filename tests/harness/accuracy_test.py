@@ -10,8 +10,9 @@ from program import SCHEMA, expect, main, valid
 
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
-    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept", "frames"]
-    methods = [line.split()[0] for line in expect(0, "list", "narrow").splitlines()]
+    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept", "frames",
+                                                                                          "impacts"]
+    methods = [name for name in (line.split()[0] for line in expect(0, "list", "narrow").splitlines()) if not name.startswith("ccd")]
     assert methods[0] == "filter-f64+exact", methods
     out = expect(0, "accuracy", "--axis", "narrow", "--pairs", "60000", "--samples", "2", "--seed", "5", "--out", "a",
                  says="filter-f64+exact: 0 missed and 0 false of 60,000 pairs")
@@ -33,7 +34,7 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
            "--out", "b", says="guigue-f64: 0 missed")
     axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
     assert axes == ["narrow", "narrow", "sums", "codes", "boxes"], axes
-    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept, frames")
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept, frames, impacts")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
 
@@ -52,8 +53,26 @@ def test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
     assert pathlib.Path("d/accuracy-swept.png").exists() or "nothing was drawn" in out
 
 
+def test_accuracy_of_impacts_counts_what_each_tolerance_finds_too_much_and_misses_nothing():
+    out = expect(0, "accuracy", "--axis", "impacts", "--scene", "cloth-ball:3000:8", "bend:torus:2000", "--samples", "1", "--out", "i",
+                 says="ccd-1e-4")
+    cells = valid("i/accuracy-impacts.json")["cells"]
+    methods = [name for name in (line.split()[0] for line in expect(0, "list", "narrow").splitlines()) if name.startswith("ccd")]
+    assert [cell["accuracy"]["method"] for cell in cells] == 4 * methods, cells
+    for k in range(0, len(cells), 3):
+        counters = [cell["counters"] for cell in cells[k:k + 3]]
+        assert all(cell["check"]["verdict"] == "counted" for cell in cells), cells
+        assert all(one["missed_count"] == 0 for one in counters), counters
+        loose, middle, tight = (one["false_count"] for one in counters)
+        assert loose >= middle >= tight and loose > 0, counters
+        assert len({one["contacts_count"] - one["false_count"] for one in counters}) == 1, counters
+    assert all(any(stage["stage"] == "narrow" for stage in cell["samples"][0]["stages"]) for cell in cells)
+    assert " narrow, ms " in out and out.count(" both ") == 6, out
+
+
 def test_accuracy_of_frames_is_exact_until_the_narrow_phase_or_the_vertices_are_rounded():
     narrow, formats = ([line.split()[0] for line in expect(0, "list", what).splitlines()][1:] for what in ("narrow", "formats"))
+    narrow = [name for name in narrow if not name.startswith("ccd")]
     out = expect(0, "accuracy", "--axis", "frames", "--scene", "cloth-ball:3000:7", "nonsense", "--samples", "2", "--out", "f",
                  says="exact")
     *cells, missing = valid("f/accuracy-frames.json")["cells"]

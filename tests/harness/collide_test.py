@@ -124,7 +124,30 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     assert "meta.json counts 4 pairs" in expect(1, *swept)
     expect(0, *swept, "--pairs-of", "between", says="agrees with CGAL boxes, meta.json, pairs ")
 
+    # At half time the corners of the triangle fall through the sheet, one of them on its diagonal, which all sides cross.
+    meta["ccd"] |= {"swept_ee": 3}
+    (folder / "meta.json").write_text(json.dumps(meta))
+    (folder / "gt_vf.csv").write_text("4,0,1\n6,0,0\n")
+    (folder / "gt_ee.csv").write_text("0,2,5,4,1\n0,2,4,6,1\n")
+    expect(0, *swept, "--narrow", "ccd-1e-4", says="counted: 0 contacts missed, 0 false")
+    for cell, contacts, truth in zip(cells(), (4, 3), (1, 2)):
+        counters = cell["counters"]
+        assert cell["check"]["against"] == "CGAL boxes, CGAL, ground truth, meta.json", cell
+        assert (counters["contacts_count"], counters["missed_count"], counters["false_count"]) == (contacts, 0, 0), counters
+        assert (counters["ground_truth_pairs"], counters["ground_truth_missed"]) == (truth, 0), counters
+        assert 0.49 < counters["earliest_impact"] <= 0.5, counters
+    expect(0, *swept, "--narrow", "ccd-1e-6", "--pairs-of", "within", "--contacts", "c.csv")
+    heading, *lines = pathlib.Path("c.csv").read_text().splitlines()
+    assert heading == "frame,a,b,time" and [line.rsplit(",", 1)[0] for line in lines] == ["0,1,5", "0,1,6", "0,1,7"], lines
+    assert all(0.49 < float(line.rsplit(",", 1)[1]) <= 0.5 for line in lines), lines
+    (folder / "gt_vf.csv").write_text("1,1,1\n")  # its swept box overlaps, and it does not touch
+    assert "1 pairs of the ground truth are missed" in expect(1, *swept, "--narrow", "ccd-1e-4")
+    expect(2, "collide", "--scene", "fall/", "--collider", "leaf", "--adjacent", "drop", "--narrow", "ccd-1e-4",
+           says="'ccd-1e-4' looks at the way between two frames: it needs swept boxes")
+
     for options, sentence in ((("--narrow", "exact"), "'exact' looks at one moment"),
+                              (("--narrow", "guigue-f64"), "'guigue-f64' looks at one moment; there are: ccd-1e-2, "),
+                              (("--contacts", "c.csv", "--narrow", "ccd-1e-4"), "choose by --pairs-of"),
                               (("--adjacent", "keep"), "there are none for --adjacent keep"),
                               (("--objects", "one"), "nobody chooses them"),
                               (("--order", "kd"), "order kd lines up one object"),

@@ -37,7 +37,7 @@ class Scripts(InFolder):
 
     def test_all_draws_every_figure(self) -> None:
         self.made("all.py", GOLDEN, "--out", self.folder / "out")
-        axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept", "frames")
+        axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept", "frames", "impacts")
         pictures = ["table1", "table2", "table2-fig9", "table2-fig10", "table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress",
                     "swept", "skips", "rebuild", "pairs", "families", "quality", *(f"accuracy-{axis}" for axis in axes)]
         for picture in pictures:

@@ -49,6 +49,8 @@ TEST(GroundTruth, IsReadAsPlacesAmongVerticesAndFacesAndAmongEdges)
     EXPECT_EQ(truth.from_frame, 0u);
     EXPECT_EQ(truth.vertex_face, (GroundTruth::Pairs{{0, 5}, {3, 6}}));
     EXPECT_EQ(truth.edge_edge, (GroundTruth::Pairs{{0, 5}, {2, 3}}));
+    EXPECT_EQ(truth.touching_vertex_face, (GroundTruth::Pairs{{0, 5}}));
+    EXPECT_EQ(truth.touching_edge_edge, (GroundTruth::Pairs{{0, 5}}));
     EXPECT_FALSE(truth.swept_vertex_face || truth.swept_edge_edge);
 }
 

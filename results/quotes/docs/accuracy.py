@@ -39,6 +39,16 @@ def narrow(doc: Document) -> None:
     doc.says("On `generic` the default takes {} ns per pair and `guigue-f64` {}", *own[:2])
 
 
+def impacts(doc: Document) -> None:
+    doc.under("## Between two frames")
+    cells = File(f"{H200}/accuracy-impacts").cells
+    own = [[cell for cell in cells if cell.accuracy["method"] == method] for method in ("ccd-1e-2", "ccd-1e-4", "ccd-1e-6")]
+    false = [sum(cell.counters["false_count"] for cell in some) for some in own]
+    doc.says("have {} false contacts for {} right ones at a tolerance of 1e-2 of\nthe scene, {} at 1e-4 and {} at 1e-6, in {}, {} and {} ms",
+             false[0], sum(cell.counters["ground_truth_pairs"] for cell in own[0]), *false[1:],
+             *(sum(us(cell, "narrow") for cell in some) * 1e-3 for some in own))
+
+
 def sums(doc: Document) -> None:
     doc.under("## Sums")
     file = File(f"{POCL}/accuracy-sums")
@@ -165,5 +175,5 @@ def frames(doc: Document) -> None:
 
 
 def quotes(doc: Document) -> None:
-    for part in (narrow, sums, codes, when_medians_pay, inputs, boxes, frames):
+    for part in (narrow, impacts, sums, codes, when_medians_pay, inputs, boxes, frames):
         part(doc)

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "collide/pairs.h"
+#include "geometry/triangle.h"
+
+namespace bvhbench {
+
+/// Two features that touch between two frames.
+struct Impact {
+    Pair pair;
+    double no_later;  ///< they touch at a time up to this one, from 0 (the first frame) to 1
+};
+
+/// Returns the candidates that touch while all vertices move in straight lines from `points` to `end_points`, in the order of the
+/// candidates: the oracle of the narrow phase between two frames, independent of its code. Candidates are pairs of a vertex
+/// (a, a, a) and any face, the vertex first, or of two edges (a, b, b). Exact for the coordinates as stored, which must be finite;
+/// touching counts. Pairs that share a vertex are left out. Uses all host cores. Throws Unavailable without CGAL or with too
+/// little host memory.
+std::vector<Impact> touching_on_the_way(std::span<const Point> points,
+                                        std::span<const Point> end_points,
+                                        std::span<const Face> faces,
+                                        std::span<const Pair> candidates);
+
+inline PairList pairs_of(const std::vector<Impact>& impacts)
+{
+    std::vector<Pair> pairs;
+    pairs.reserve(impacts.size());
+    for (const Impact& one : impacts)
+        pairs.push_back(one.pair);
+    return PairList(std::move(pairs));
+}
+
+}  // namespace bvhbench

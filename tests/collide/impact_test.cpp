@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+//
+// The narrow phase between two frames misses nothing that touches, and what it finds besides comes near: by hand, and on random
+// motions against exact arithmetic.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <random>
+
+#include "collide/oracles/swept_reference.h"
+#include "geometry/error.h"
+#include "tests/collide/narrow_testing.h"
+
+namespace bvhbench {
+namespace {
+
+using Four = std::array<Point, 4>;
+
+/// Pairs of features, each of four vertices of its own: a vertex and a face, or two edges.
+struct Motions {
+    std::vector<Point> from, to;
+    std::vector<Face> faces;
+    std::vector<Pair> pairs;
+
+    void add(bool of_edges, const Four& first, const Four& last)
+    {
+        const auto v = static_cast<uint>(from.size()), f = static_cast<uint>(faces.size());
+        from.insert(from.end(), first.begin(), first.end());
+        to.insert(to.end(), last.begin(), last.end());
+        faces.push_back(of_edges ? Face{v, v + 1, v + 1} : Face{v, v, v});
+        faces.push_back(of_edges ? Face{v + 2, v + 3, v + 3} : Face{v + 1, v + 2, v + 3});
+        pairs.push_back({f, f + 1});
+    }
+    bool is_of_edges(std::size_t k) const { return faces[2 * k].a != faces[2 * k].b; }
+};
+
+/// Returns the time of each pair that is found.
+std::map<Pair, float> found_by(std::string_view method, KernelForm form, const Motions& all,
+                               float size)
+{
+    const Mesh mesh = {all.from, all.faces};
+    Candidates candidates(mesh, all.pairs);
+    upload_end(candidates.input, bench().device, bench().queue, all.to);
+    NarrowPhase narrow(bench().programs,
+                       {.method = method, .form = form, .capacity = 1, .swept_size = size});
+    narrow.reserve(all.faces.size());
+    find_contacts(narrow, candidates.input, candidates.on_device, candidates.counters,
+                  bench().queue);
+    bench().queue.finish();
+    const std::vector<Pair> pairs = narrow.contacts(bench().queue);
+    const std::vector<float> times = narrow.impact_times(bench().queue);
+    EXPECT_EQ(narrow.counts(bench().queue).candidates(), all.pairs.size());
+    std::map<Pair, float> found;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        EXPECT_TRUE(found.emplace(pairs[k], times[k]).second) << "found twice";
+        EXPECT_TRUE(times[k] >= 0 && times[k] <= 1) << times[k];
+    }
+    return found;
+}
+
+struct ByHand {
+    const char* name;
+    bool of_edges;
+    Four from, to;
+    std::optional<double> time;  ///< when they first touch
+};
+
+constexpr Point a = {0, 0, 0}, b = {1, 0, 0}, c = {0, 1, 0};
+constexpr Point left = {-1, 0, 0}, right = {1, 0, 0};
+constexpr std::optional<double> never;
+
+const ByHand by_hand[] = {
+    {"head on", false, {{{.25f, .25f, 1}, a, b, c}}, {{{.25f, .25f, -1}, a, b, c}}, 0.5},
+    {"beside", false, {{{.75f, .75f, 1}, a, b, c}}, {{{.75f, .75f, -1}, a, b, c}}, never},
+    {"stops before", false, {{{.25f, .25f, 1}, a, b, c}}, {{{.25f, .25f, .125f}, a, b, c}}, never},
+    {"at the end only", false, {{{.25f, .25f, 1}, a, b, c}}, {{{.25f, .25f, 0}, a, b, c}}, 1.0},
+    {"at the start only", false, {{{.25f, .25f, 0}, a, b, c}}, {{{.25f, .25f, 1}, a, b, c}}, 0.0},
+    {"grazes a corner", false, {{{1, 0, 1}, a, b, c}}, {{{1, 0, -3}, a, b, c}}, 0.25},
+    {"grazes a side", false, {{{.5f, .5f, 1}, a, b, c}}, {{{.5f, .5f, -1}, a, b, c}}, 0.5},
+    {"slides in", false, {{{2, .25f, 0}, a, b, c}}, {{{0, .25f, 0}, a, b, c}}, 0.625},
+    {"slides past", false, {{{2, 2, 0}, a, b, c}}, {{{-1, 2, 0}, a, b, c}}, never},
+    {"hits a face without area",
+     false,
+     {{{1, 0, 1}, a, b, {2, 0, 0}}},
+     {{{1, 0, -1}, a, b, {2, 0, 0}}},
+     0.5},
+    {"passes a face without area",
+     false,
+     {{{1, .5f, 1}, a, b, {2, 0, 0}}},
+     {{{1, .5f, -1}, a, b, {2, 0, 0}}},
+     never},
+    {"hits a point", false, {{{0, 0, 1}, a, a, a}}, {{{0, 0, -1}, a, a, a}}, 0.5},
+    {"passes a point", false, {{{.5f, 0, 1}, a, a, a}}, {{{.5f, 0, -1}, a, a, a}}, never},
+    {"rests in it", false, {{{.25f, .25f, 0}, a, b, c}}, {{{.25f, .25f, 0}, a, b, c}}, 0.0},
+    {"rests above it",
+     false,
+     {{{.25f, .25f, .125f}, a, b, c}},
+     {{{.25f, .25f, .125f}, a, b, c}},
+     never},
+    {"moves along",
+     false,
+     {{{.25f, .25f, .125f}, a, b, c}},
+     {{{.25f, .25f, 8.125f}, {0, 0, 8}, {1, 0, 8}, {0, 1, 8}}},
+     never},
+    {"is met",
+     false,
+     {{{.25f, .25f, 1}, a, b, c}},
+     {{{.25f, .25f, 1}, {0, 0, 4}, {1, 0, 4}, {0, 1, 4}}},
+     0.25},
+    {"edges cross",
+     true,
+     {{left, right, {0, -1, 1}, {0, 1, 1}}},
+     {{left, right, {0, -1, -1}, {0, 1, -1}}},
+     0.5},
+    {"edges end before",
+     true,
+     {{left, right, {2, -1, 1}, {2, 1, 1}}},
+     {{left, right, {2, -1, -1}, {2, 1, -1}}},
+     never},
+    {"edges end there",
+     true,
+     {{left, right, {1, -1, 1}, {1, 1, 1}}},
+     {{left, right, {1, -1, -1}, {1, 1, -1}}},
+     0.5},
+    {"parallel",
+     true,
+     {{left, right, {-1, 0, 1}, {1, 0, 1}}},
+     {{left, right, {-1, 0, -1}, {1, 0, -1}}},
+     0.5},
+    {"parallel, beside",
+     true,
+     {{left, right, {-1, .5f, 1}, {1, .5f, 1}}},
+     {{left, right, {-1, .5f, -1}, {1, .5f, -1}}},
+     never},
+    {"in one line",
+     true,
+     {{left, right, {2, 0, 0}, {3, 0, 0}}},
+     {{left, right, {0, 0, 0}, {1, 0, 0}}},
+     0.5},
+    {"in one line, apart",
+     true,
+     {{left, right, {2, 0, 0}, {3, 0, 0}}},
+     {{left, right, {1.5f, 0, 0}, {2.5f, 0, 0}}},
+     never},
+    {"in one plane",
+     true,
+     {{left, right, {0, 1, 0}, {0, 2, 0}}},
+     {{left, right, {0, -1, 0}, {0, 0, 0}}},
+     0.5},
+    {"at the end only, edges",
+     true,
+     {{left, right, {0, -1, 1}, {0, 1, 1}}},
+     {{left, right, {0, -1, 0}, {0, 1, 0}}},
+     1.0},
+    {"an edge without length",
+     true,
+     {{left, right, {0, 0, 1}, {0, 0, 1}}},
+     {{left, right, {0, 0, -1}, {0, 0, -1}}},
+     0.5},
+    {"two of them", true, {{a, a, {0, 0, 1}, {0, 0, 1}}}, {{a, a, {0, 0, -1}, {0, 0, -1}}}, 0.5},
+    {"turns into it",
+     true,
+     {{left, right, {0, 1, -1}, {0, 1, 1}}},
+     {{left, right, {0, 1, -1}, {0, -1, 1}}},
+     1.0},
+};
+
+Point moved(Point p, float scale, float by)
+{
+    return {scale * (p.x + by), scale * (p.y + by), scale * (p.z + by)};
+}
+
+/// Returns all cases, scaled after a translation. Both must leave the coordinates exact.
+Motions cases(float scale, float by)
+{
+    Motions all;
+    for (const ByHand& one : by_hand) {
+        Four from = one.from, to = one.to;
+        for (Four* const four : {&from, &to})
+            for (Point& p : *four)
+                p = moved(p, scale, by);
+        all.add(one.of_edges, from, to);
+    }
+    return all;
+}
+
+class Impacts : public testing::TestWithParam<KernelForm> {};
+
+TEST_P(Impacts, ByHandAreFoundWhereverTheyAreAndBeforeTheyHappen)
+{
+    for (const auto& [scale, by] : {std::pair(1.0f, 0.0f), std::pair(1.0f, 1024.0f),
+                                    std::pair(0x1p-90f, -512.0f), std::pair(0x1p60f, 3.0f)})
+        for (const NarrowMethod& method : swept_narrow_methods()) {
+            const Motions all = cases(scale, by);
+            const auto found = found_by(method.name, GetParam(), all, 2 * scale);
+            for (std::size_t k = 0; k < std::size(by_hand); ++k) {
+                SCOPED_TRACE(std::string(by_hand[k].name) + ' ' + std::string(method.name));
+                const auto one = found.find(all.pairs[k]);
+                ASSERT_EQ(one != found.end(), by_hand[k].time.has_value()) << scale << ' ' << by;
+                if (one == found.end())
+                    continue;
+                EXPECT_LE(one->second, *by_hand[k].time);
+                EXPECT_GE(one->second, *by_hand[k].time - 2 * method.tolerance - 1e-3);
+            }
+        }
+}
+
+TEST_P(Impacts, ByHandAreThoseOfTheReference)
+{
+    if (!has_exact_reference)
+        GTEST_SKIP() << "built without CGAL: there is no reference";
+    const Motions all = cases(1, 0);
+    const std::vector<Impact> found = touching_on_the_way(all.from, all.to, all.faces, all.pairs);
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < std::size(by_hand); ++k) {
+        SCOPED_TRACE(by_hand[k].name);
+        const bool is_there = next < found.size() && found[next].pair == all.pairs[k];
+        ASSERT_EQ(is_there, by_hand[k].time.has_value());
+        if (is_there) {
+            EXPECT_GE(found[next++].no_later, *by_hand[k].time);
+        }
+    }
+    EXPECT_EQ(next, found.size());
+}
+
+// The bounds on rounding do not hold for differences this small or large.
+TEST_P(Impacts, AreAllFoundOutsideTheRangeOfTheBounds)
+{
+    for (const float scale : {0x1p-140f, 0x1p-110f, 0x1p105f, 0x1p124f})
+        EXPECT_EQ(found_by("ccd-1e-6", GetParam(), cases(scale, 0), scale).size(),
+                  std::size(by_hand));
+}
+
+using Vector = std::array<double, 3>;
+
+Vector plus(const Vector& u, double share, const Vector& v)
+{
+    return {u[0] + share * v[0], u[1] + share * v[1], u[2] + share * v[2]};
+}
+
+double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+
+Vector cross(const Vector& u, const Vector& v)
+{
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+/// Returns the distance of the features of pair k at a time: that of the origin from the hull of the differences of vertices,
+/// whose nearest point is on a side or within.
+double distance(const Motions& all, std::size_t k, double time)
+{
+    const auto at = [&](std::size_t i) {
+        const Point p = all.from[4 * k + i], q = all.to[4 * k + i];
+        const Vector from = {p.x, p.y, p.z}, to = {q.x, q.y, q.z};
+        return plus(from, time, plus(to, -1, from));
+    };
+    const bool of_edges = all.is_of_edges(k);
+    const std::array hull = of_edges ? std::array{plus(at(2), -1, at(0)), plus(at(2), -1, at(1)),
+                                                  plus(at(3), -1, at(1)), plus(at(3), -1, at(0))}
+                                     : std::array{plus(at(1), -1, at(0)), plus(at(2), -1, at(0)),
+                                                  plus(at(3), -1, at(0)), plus(at(3), -1, at(0))};
+    const Vector normal = cross(plus(hull[1], -1, hull[0]), plus(hull[2], -1, hull[0]));
+    double least = std::sqrt(dot(hull[0], hull[0]));
+    bool is_inside = dot(normal, normal) > 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vector from = hull[i], to = hull[(i + 1) % 4], side = plus(to, -1, from);
+        const double share =
+            dot(side, side) > 0 ? std::clamp(-dot(from, side) / dot(side, side), 0.0, 1.0) : 0;
+        const Vector nearest = plus(from, share, side);
+        least = std::min(least, std::sqrt(dot(nearest, nearest)));
+        is_inside = is_inside && dot(cross(from, to), normal) >= 0;
+    }
+    return is_inside
+               ? std::min(least, std::abs(dot(normal, hull[0])) / std::sqrt(dot(normal, normal)))
+               : least;
+}
+
+/// Returns the least distance of pair k over the step, at most half a thousandth of the longest way too large.
+double least_distance(const Motions& all, std::size_t k)
+{
+    double least = distance(all, k, 1);
+    for (int step = 0; step < 1000; ++step)
+        least = std::min(least, distance(all, k, step / 1000.0));
+    return least;
+}
+
+/// A class of random motions, in a cube of this size. `first` returns a coordinate, `last` what it is in the last frame.
+struct Class {
+    const char* name;
+    uint count;
+    float size;
+    std::function<float(std::mt19937&)> first;
+    std::function<float(std::mt19937&, float)> last;
+    bool is_flat = false;  ///< z is 0
+    bool ends_in_touch =
+        false;  ///< the vertex moves onto the face, or the second edge's middle onto the first's
+};
+
+float uniform(std::mt19937& random) { return std::uniform_real_distribution<float>(-1, 1)(random); }
+float twentieth_bit(std::mt19937& random)
+{
+    return std::ldexp(static_cast<float>(random() % (1u << 20)), -20);
+}
+float whole(std::mt19937& random) { return static_cast<float>(random() % 4); }
+
+const Class classes[] = {
+    {"anywhere", 10000, 2, uniform, [](std::mt19937& random, float) { return uniform(random); }},
+    {"slow", 10000, 2, uniform,
+     [](std::mt19937& random, float x) { return x + 0.1f * uniform(random); }},
+    {"tiny", 2000, 2e-25f, [](std::mt19937& random) { return 1e-25f * uniform(random); },
+     [](std::mt19937& random, float) { return 1e-25f * uniform(random); }},
+    {"lattice", 4000, 3, whole, [](std::mt19937& random, float) { return whole(random); }},
+    {"still lattice", 4000, 3, whole,
+     [](std::mt19937& random, float x) { return random() % 4 == 0 ? whole(random) : x; }},
+    {"far lattice", 2000, 3, [](std::mt19937& random) { return 4194304 + whole(random); },
+     [](std::mt19937& random, float) { return 4194304 + whole(random); }},
+    {"flat lattice", 200, 3, whole, [](std::mt19937& random, float) { return whole(random); },
+     true},
+    {"ends in touch", 4000, 2, twentieth_bit,
+     [](std::mt19937& random, float) { return twentieth_bit(random); }, false, true},
+};
+
+Motions motions_of(const Class& of)
+{
+    std::mt19937 random(5);
+    Motions all;
+    for (uint k = 0; k < of.count; ++k) {
+        Four from, to;
+        for (std::size_t i = 0; i < 4; ++i) {
+            from[i] = {of.first(random), of.first(random), of.is_flat ? 0 : of.first(random)};
+            to[i] = {of.last(random, from[i].x), of.last(random, from[i].y),
+                     of.is_flat ? 0 : of.last(random, from[i].z)};
+        }
+        const bool of_edges = k % 2 == 1;
+        for (float Point::*const axis : {&Point::x, &Point::y, &Point::z}) {
+            if (!of.ends_in_touch)
+                break;
+            const auto way = (from[0].*axis + from[1].*axis - from[2].*axis - from[3].*axis) / 2;
+            for (std::size_t i = 0; i < 4; ++i)
+                to[i].*axis = from[i].*axis + (of_edges && i >= 2 ? way : 0);
+            if (!of_edges)
+                to[0].*axis = (from[1].*axis + from[2].*axis + 2 * from[3].*axis) / 4;
+        }
+        all.add(of_edges, from, to);
+    }
+    return all;
+}
+
+TEST_P(Impacts, AtRandomAreNeverMissedAndFalseOnesComeNear)
+{
+    if (!has_exact_reference)
+        GTEST_SKIP() << "built without CGAL: there is no reference";
+    for (const Class& of : classes) {
+        const Motions all = motions_of(of);
+        const std::vector<Impact> touching =
+            touching_on_the_way(all.from, all.to, all.faces, all.pairs);
+        EXPECT_GT(touching.size(), 20u) << of.name;
+        EXPECT_EQ(touching.size() == of.count, of.ends_in_touch) << of.name;
+        std::size_t found_before = of.count;
+        for (const NarrowMethod& method : swept_narrow_methods()) {
+            SCOPED_TRACE(std::string(of.name) + ' ' + std::string(method.name));
+            auto found = found_by(method.name, GetParam(), all, of.size);
+            EXPECT_LE(found.size(), found_before);  // tolerances decrease
+            found_before = found.size();
+            std::size_t missed = 0, late = 0, far = 0;
+            for (const Impact& one : touching) {
+                const auto same = found.find(one.pair);
+                missed += same == found.end() ? 1 : 0;
+                late += same != found.end() && double{same->second} > one.no_later ? 1 : 0;
+                found.erase(one.pair);
+            }
+            const double sampled = of.size * std::sqrt(3.0) / 1000, rounded = of.size * 0x1p-16;
+            for (const auto& [pair, time] : found)
+                far +=
+                    least_distance(all, pair.a / 2) > of.size * method.tolerance + sampled + rounded
+                        ? 1
+                        : 0;
+            EXPECT_EQ(missed, 0u);
+            EXPECT_EQ(late, 0u);
+            EXPECT_EQ(far, 0u);
+        }
+    }
+}
+
+// Small enough for a simulated device that checks every memory access.
+TEST_P(Impacts, OfFewPairsAreFound)
+{
+    EXPECT_GT(found_by("ccd-1e-4", GetParam(), cases(1, 0), 2).size(), 10u);
+}
+
+TEST(ImpactPhase, IsForSweptBoxesAndOthersAreNot)
+{
+    EXPECT_THROW(NarrowPhase(bench().programs, {.method = "ccd-1e-4"}), BadUsage);
+    EXPECT_THROW(NarrowPhase(bench().programs, {.method = "exact", .swept_size = 1.0f}), BadUsage);
+    EXPECT_EQ(moment_narrow_methods().size() + swept_narrow_methods().size(),
+              narrow_methods().size());
+    EXPECT_FALSE(swept_narrow_methods().empty());
+    for (const NarrowMethod& method : moment_narrow_methods())
+        EXPECT_FALSE(method.is_swept()) << method.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, Impacts, testing::Values(KernelForm::groups, KernelForm::chunks),
+                         [](const auto& instance) { return form_name(instance.param); });
+
+}  // namespace
+}  // namespace bvhbench
