@@ -28,7 +28,16 @@ private:
         return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, asked_, options_);
     }
 
-    void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
+    void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue, false); }
+
+    /// A group kernel can line up leaves; a tree that is one leaf has no group.
+    bool lines_up() const override
+    {
+        return by_groups() && tree_.sorted_leaves && tree_.format->number == BOX_F32 &&
+               std::ranges::all_of(tree_.objects,
+                                   [](const ForestObject& object) { return object.leaves > 1; });
+    }
+    void enqueue_lining_up(Queue& queue) override { enqueue(whole_, queue, true); }
 
     /// If boxes are rounded to cells, the cells depend on all objects, so one moved object may change the boxes of all.
     bool can_update_some() const override { return !tree_.format->has_cells(); }
@@ -38,7 +47,7 @@ private:
         update_.plan(objects, launch_plan());
         update_.upload(queue);
     }
-    void enqueue_update(Queue& queue) override { enqueue(update_, queue); }
+    void enqueue_update(Queue& queue) override { enqueue(update_, queue, false); }
 
     bool in_one_launch() const { return meeting_ != Meeting::between_launches; }
     bool waits() const { return meeting_ == Meeting::by_waiting; }
@@ -54,6 +63,7 @@ private:
                                                      : "multi";
         std::vector<Define> defines = {{"BOX_FORMAT", tree_.format->number},
                                        {"FROM_LEAVES", from_leaves ? 1u : 0u},
+                                       {"LINES_UP", from_leaves && tree_.sorted_leaves ? 1u : 0u},
                                        {"SEVERAL_OBJECTS", is_forest() ? 1u : 0u}};
         if (!by_groups())
             return programs_.kernel(tree_.layout.build_items, name, defines);
@@ -72,7 +82,7 @@ private:
     bool fits(const Cut& cut) const;
     void choose_and_plan(Meeting meeting);
     void prepare(const cl::CommandQueue& queue) override;
-    void enqueue(const Launches& launches, Queue& queue);
+    void enqueue(const Launches& launches, Queue& queue, bool lines_up);
     std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
     const Meeting asked_;
@@ -165,7 +175,7 @@ LaunchPlan KernelBuilder::launch_plan() const
 void KernelBuilder::prepare(const cl::CommandQueue& queue)
 {
     ImplicitBuilder::prepare(queue);
-    if (!tree_.sorted_leaves)
+    if (!tree_.sorted_leaves || lines_up())
         from_leaves_ = kernel(cut_, true);
     if (tree_.sorted_leaves || !in_one_launch())
         from_nodes_ = kernel(cut_, false);
@@ -174,12 +184,14 @@ void KernelBuilder::prepare(const cl::CommandQueue& queue)
     whole_.upload(queue);
 }
 
-void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
+/// With `lines_up` the first launch reads leaves in mesh order and writes them in leaf order, too.
+void KernelBuilder::enqueue(const Launches& launches, Queue& queue, bool lines_up)
 {
     for (uint k = 0; k < launches.list.size(); ++k) {
         const Launch& launch = launches.list[k];
-        cl::Kernel& kernel = k == 0 && !tree_.sorted_leaves ? from_leaves_ : from_nodes_;
-        cl_uint next = set_arguments_from(kernel, 0, tree_.leaf_boxes, tree_.ids, tree_.nodes,
+        cl::Kernel& kernel =
+            k == 0 && (lines_up || !tree_.sorted_leaves) ? from_leaves_ : from_nodes_;
+        cl_uint next = set_arguments_from(kernel, 0, leaf_order_.boxes(), tree_.ids, tree_.nodes,
                                           tree_.device_objects, launches.subtrees, tree_.leaves);
         if (waits())
             next = set_arguments_from(kernel, next, posts_, launches.later, launch.subtrees);
@@ -189,6 +201,8 @@ void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
             next = set_arguments_from(kernel, next, launch.first_subtree, k);
         if (!by_groups())
             set_arguments_from(kernel, next, cut_.levels);
+        if (k == 0 && lines_up)  // ids are read and leaves written, too
+            queue.declare(tree_.leaves * static_cast<std::int64_t>(sizeof(uint) + sizeof(Aabb)));
         queue.launch(kernel, (launch.subtrees + launches.later_list.size()) * cut_.group_size,
                      cut_.group_size, launch.moved_bytes);
     }

@@ -93,7 +93,10 @@ const Tree& OrderedBuilder::build(const Input& input, Queue& queue, Start start)
         gather_if_sorted(input, queue);
     }
     queue.begin("hierarchy");
-    enqueue_hierarchy(queue);
+    if (start == Start::from_triangles && lines_up())
+        enqueue_lining_up(queue);
+    else
+        enqueue_hierarchy(queue);
     return tree();
 }
 
@@ -104,7 +107,10 @@ const Tree& OrderedBuilder::refit(const Input& input, Queue& queue)
     leaf_order_.enqueue_boxes(input, queue);
     gather_if_sorted(input, queue);
     queue.begin("refit");
-    enqueue_refit(queue);
+    if (lines_up())
+        enqueue_lining_up(queue);
+    else
+        enqueue_refit(queue);
     return tree();
 }
 
@@ -166,7 +172,7 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
 
 void OrderedBuilder::gather_if_sorted(const Input& input, Queue& queue)
 {
-    if (gather_)
+    if (gather_ && !lines_up())
         gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), input.device_owners, queue);
 }
 

@@ -45,6 +45,11 @@ protected:
     virtual void enqueue_hierarchy(Queue& queue) = 0;
     virtual void enqueue_refit(Queue& queue) = 0;
 
+    /// True if `enqueue_lining_up` enqueues the hierarchy and its refit over leaf boxes in mesh order, which it lines up, so that
+    /// there is no stage `gather`.
+    virtual bool lines_up() const { return false; }
+    virtual void enqueue_lining_up(Queue&) {}
+
     /// True if the builder can update the trees of some objects only, through the next three functions.
     virtual bool can_update_some() const { return false; }
 

@@ -111,6 +111,33 @@ INSTANTIATE_TEST_SUITE_P(Catalog, EachBuilder,
                              return test_name(std::string(tested.param.name));
                          });
 
+TEST(ImplicitBuilders, LineUpLeavesInTheirFirstLaunchUnlessTheyRoundThem)
+{
+    const Mesh mesh = hard_inputs().front().make(777);
+    const Input input = upload(session().device(), session().queue(), mesh.points, mesh.faces);
+    Oracle oracle(session(), input);
+    for (const char* name : {"oibvh-single", "perfect"})
+        for (const unsigned items : {1u, 4u})
+            for (const char* boxes : {"f32", "f64"}) {
+                SCOPED_TRACE(std::string(name) + ' ' + boxes + ' ' + std::to_string(items));
+                BuilderChoice choice = named(name);
+                choice.group_size = 32;  // several groups in the first launch, and later ones
+                choice.items = items;
+                choice.sorted_leaves = true;
+                choice.boxes = boxes;
+                bool refused = false;
+                EXPECT_EQ(broken_contract(session(), choice, input, oracle, &refused), "");
+                EXPECT_FALSE(refused);
+                Builder& builder = session().builder(choice);
+                builder.reserve(mesh.faces.size());
+                bool gathers = false;
+                for (const StageTime& stage :
+                     session().build_once(builder, input, Start::from_triangles))
+                    gathers |= stage.stage == "gather";
+                EXPECT_EQ(gathers, boxes == std::string_view("f64"));
+            }
+}
+
 TEST(CheckBytes, AreInProportionToo)
 {
     EXPECT_EQ(check_bytes(std::uint64_t{1} << 28), check_bytes(1u << 20) << 8);
