@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <utility>
 
 #include "collide/counters.h"
 #include "collide/device_lists.h"
@@ -118,12 +119,15 @@ void DeviceCollider::take_all()
         save(queue);
     take_memory(arena_, device(), [&](Arena& arena) {
         counters_ = arena.take<uint>(QUEUES_COUNT + 2 * queue_count_, Use::scratch);
+        next_counters_ = arena.take<uint>(zeroes_next_ ? counters_.size() : 0, Use::scratch);
         const bool with_ropes = tree_ != nullptr && has_ropes(*tree_);
         ropes_ = arena.take<uint>(with_ropes ? 2 * std::size_t{triangles_} - 1 : 1, Use::scratch);
         has_written_ropes_ = false;
         plan(arena);
         pairs_ = arena.take<Pair>(pair_room_, Use::scratch);
     });
+    for (Buffer<uint>* zeroed : {&counters_, &next_counters_})
+        zeroed->upload(queue, std::vector<uint>(zeroed->size()));
     fill(queue);
 }
 
@@ -144,7 +148,10 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
     if (has_pairs)
         enqueue_before(input, queue);
     queue.begin("broad");
-    queue.clear(counters_.cl(), counters_.bytes());
+    if (zeroes_next_ && has_pairs)
+        std::swap(counters_, next_counters_);
+    else
+        queue.clear(counters_.cl(), counters_.bytes());
     queue.declare(has_pairs ? reads_at_least() : 0);
     if (has_pairs)
         enqueue(input, queue);

@@ -101,11 +101,13 @@ protected:
 
     ColliderOptions options_;
     uint group_size_;
-    std::size_t chunks_;     ///< work-items of the chunk form (for few cores)
-    uint triangles_ = 0;     ///< triangles that memory is reserved for
-    uint queue_count_ = 0;   ///< number of queue counters
-    Buffer<uint> counters_;  ///< layout: collide/counters.h
-    Buffer<Pair> pairs_;     ///< pairs found, in no order
+    std::size_t chunks_;    ///< work-items of the chunk form (for few cores)
+    uint triangles_ = 0;    ///< triangles that memory is reserved for
+    uint queue_count_ = 0;  ///< number of queue counters
+    /// True if a kernel of each query zeroes `next_counters_`; else a command of its own clears `counters_`. Set by `compile`.
+    bool zeroes_next_ = false;
+    Buffer<uint> counters_, next_counters_;  ///< of two queries; layout: collide/counters.h
+    Buffer<Pair> pairs_;                     ///< pairs found, in no order
 
 private:
     bool has_ropes(const DeviceTree& tree) const

@@ -17,20 +17,6 @@
 #include "geometry/box_words.clh"
 #include "geometry/scene_bounds.h"
 
-/// Adds the counts of a group's work-items to `count`. Contains a barrier.
-static inline void add_tests(local ulong* tests, const ulong own, volatile global uint* count)
-{
-    tests[get_local_id(0)] = own;
-    barrier(CLK_LOCAL_MEM_FENCE);
-    if (get_local_id(0) != 0)
-        return;
-    ulong sum = 0ul;
-    for (uint k = 0u; k < GROUP_SIZE; ++k)
-        sum += tests[k];
-    if (sum != 0ul)
-        add_wide(count, sum);
-}
-
 /// Writes the objects that object k overlaps to lists[LISTED * k], ..., as far as LISTED, and their full number to list_sizes[k].
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void list_touching(
     global const Bounds* restrict bounds, const uint object_count, global uint* restrict lists,

@@ -92,7 +92,7 @@ public:
 private:
     bool by_groups() const { return form_ == KernelForm::groups; }
     cl::Kernel compiled_filter(const NarrowMethod& method);
-    std::size_t group_count(std::size_t candidates) const;
+    std::size_t items_for(std::size_t pairs, std::size_t groups_per_unit) const;
     void take_all();
     void find_impacts(const Input& input, const Buffer<Pair>& candidates,
                       const Buffer<uint>& candidate_counters, Queue& queue);
@@ -112,10 +112,11 @@ private:
     cl::Kernel filter_;
     cl::Kernel exact_;
     Buffer<Pair> contacts_;
-    Buffer<float> times_;    ///< of contacts, for methods for swept boxes
-    Buffer<Pair> unsure_;    ///< candidates left to exact arithmetic
-    Buffer<Pair> blocks_;    ///< blocks of the chunk form
-    Buffer<uint> counters_;  ///< layout: collide/narrow/narrow_words.h
+    Buffer<float> times_;  ///< of contacts, for methods for swept boxes
+    Buffer<Pair> unsure_;  ///< candidates left to exact arithmetic
+    Buffer<Pair> blocks_;  ///< blocks of the chunk form
+    /// Counters of the last query, and those of the next, which a query zeroes; layout: collide/narrow/narrow_words.h.
+    Buffer<uint> counters_, next_counters_;
 };
 
 /// Repeats the query until it is complete; returns the number of queries. Blocks.

@@ -16,7 +16,9 @@ kernel void decide_exactly(global const Point* points, global const Face* faces,
                            volatile global uint* counters)
 {
     const uint count = min(counters[NARROW_EXACT_COUNT], unsure_room);
-    for (ulong place = get_global_id(0); place < count; place += get_global_size(0)) {
+    // Neighbouring candidates go to different groups, because the lanes of a warp take the branches of the test in turn.
+    const ulong first = get_local_id(0) * get_num_groups(0) + get_group_id(0);
+    for (ulong place = first; place < count; place += get_global_size(0)) {
         const uint2 pair = unsure[place];
         Shared shared = {0u, faces[pair.x], faces[pair.y]};
         if (KEEP_ADJACENT)

@@ -7,7 +7,8 @@
 #define VERDICT_APART 0u
 #define VERDICT_MEET 1u
 #define VERDICT_UNSURE 2u
-#define BY_DOUBLES 4u  // added to a verdict that needed doubles
+#define BY_DOUBLES 4u    // added to a verdict that needed doubles
+#define VERDICT_OPEN 8u  // not decided yet
 
 #define CONTACTS_COUNT 0u      // pairs that intersect, including those beyond the buffer's capacity
 #define NARROW_FLOAT_COUNT 2u  // candidates decided by their indices or in floats

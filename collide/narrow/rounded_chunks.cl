@@ -14,8 +14,10 @@ kernel void filter_pairs(global const Point* points, global const Face* faces,
                          global const uint2* candidates, global const uint* candidate_counters,
                          const uint candidate_room, global uint2* contacts, const uint contact_room,
                          global uint2* unsure, const uint unsure_room,
-                         volatile global uint* counters, global uint2* blocks)
+                         volatile global uint* counters, global uint* next_counters,
+                         global uint2* blocks)
 {
+    zero_next(next_counters, NARROW_COUNTERS);
     (void)unsure, (void)unsure_room;
     const uint count = count_in_room(candidate_counters, candidate_room);
     List meeting = {blocks + SINK_BLOCK * get_global_id(0), 0u, contacts, contact_room,
