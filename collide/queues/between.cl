@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DGROUP_SIZE=64u -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DGROUP_SIZE=64u -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0
 //
 // Finds the tasks between objects: chunks of leaves of the object with more leaves, against each object whose box overlaps the
 // box of the chunk. That box is the box of the subtree over the leaves, Eq. (13); in a tree with pointers it is the box of the
-// whole object. SKIP_OVERLAP and SKIP_APART: drop tasks by the test of the chunk's box and of the object's box (skips.h). A
-// work-item tests its chunk against OTHERS_A_WORK_ITEM objects, one after the other.
-#include "builders/stages/chunk.clh"
+// whole object. SKIP_OVERLAP and SKIP_APART: drop tasks by the test of the chunk's box and of the object's box (skips.h).
 #include "collide/found.clh"
 #include "collide/walks/task.clh"
+#include "geometry/bits.h"
 
 static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
 {
@@ -21,46 +20,66 @@ static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
 #endif
 }
 
-/// True if the leaves of `a` query the tree of `b` rather than the other way round. Many short walks end sooner than a few long
-/// ones: a ball's 760 leaves against a cloth's 91,470 took 7 times as long as the cloth's leaves against the ball.
-static inline bool asks(const ForestObject a, const ForestObject b, const bool comes_first)
+/// True if the leaves of object a query the tree of object b rather than the other way round. Many short walks end sooner than a few
+/// long ones: a ball's 760 leaves against a cloth's 91,470 took 7 times as long as the cloth's leaves against the ball.
+static inline bool asks(const uint a_leaves, const uint b_leaves, const bool comes_first)
 {
-    return a.leaves > b.leaves || (a.leaves == b.leaves && comes_first);
+    return a_leaves > b_leaves || (a_leaves == b_leaves && comes_first);
 }
 
-/// `chunks` are runs of neighbouring leaves of all objects. Tasks beyond the capacity of `between` are counted, not written.
-kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, const uint chunk_count,
-                         const uint object_count, global QueryTask* between,
-                         const uint most_between, volatile global uint* counters)
+/// Adds the tasks of a chunk of leaves against `count` objects from `first` on, whose boxes and numbers of leaves are in local memory.
+/// Returns the number of tests. Tasks beyond the capacity of `between` are counted, not written.
+static inline uint add_tasks(FOREST_PARAMETERS, QueryTask task, const uint first, const uint count,
+                             local const Aabb* root_boxes, local const uint* leaf_counts,
+                             global QueryTask* between, const uint most_between,
+                             volatile global uint* counters)
 {
-    const uint blocks = divided_up(object_count, OTHERS_A_WORK_ITEM);
-    const Chunk part = own_chunk(chunk_count * blocks);
-    ulong tests = 0ul;
-    for (uint k = part.first; k < part.end; ++k) {
-        QueryTask task = chunks[k / blocks];
-        const ForestObject own = objects[task.own];
-        const Aabb box __attribute__((unused)) = task_box(FOREST, task);
-        const Aabb whole __attribute__((unused)) = root_box(FOREST, task.own);
-        const uint first = k % blocks * OTHERS_A_WORK_ITEM;
-        const uint end = min(object_count, first + OTHERS_A_WORK_ITEM);
-        for (uint other = first; other < end; ++other) {
-            if (other == task.own || !asks(own, objects[other], task.own < other))
-                continue;
-            ++tests;
-            const Aabb others __attribute__((unused)) = root_box(FOREST, other);
-#if SKIP_OVERLAP
-            if (!overlap(box, others))
-                continue;
-#endif
-#if SKIP_APART
-            if (!overlap(whole, others))
-                continue;
-#endif
-            const uint slot = add_wide(counters + TASKS_COUNT, 1ul);
-            task.other = other;
-            if (slot < most_between)
-                between[slot] = task;
-        }
+    const ForestObject own = objects[task.own];
+    const Aabb box = task_box(FOREST, task);
+    const Aabb whole = root_box(FOREST, task.own);
+    uint tests = 0u;
+    for (uint k = 0u; k < count; ++k) {
+        task.other = first + k;
+        if (task.other == task.own || !asks(own.leaves, leaf_counts[k], task.own < task.other))
+            continue;
+        ++tests;
+        if (SKIP_OVERLAP && !overlap(box, root_boxes[k]))
+            continue;
+        if (SKIP_APART && !overlap(whole, root_boxes[k]))
+            continue;
+        const uint slot = add_wide(counters + TASKS_COUNT, 1ul);
+        if (slot < most_between)
+            between[slot] = task;
     }
-    add_wide(counters + BOX_TESTS_COUNT, tests);
+    return tests;
+}
+
+/// `chunks` are runs of neighbouring leaves of all objects. A group takes GROUP_SIZE chunks and OTHERS_AT_A_TIME objects at a time.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void find_between(
+    FOREST_PARAMETERS, global const QueryTask* chunks, const uint chunk_count,
+    const uint object_count, global QueryTask* between, const uint most_between,
+    volatile global uint* counters)
+{
+    local Aabb root_boxes[OTHERS_AT_A_TIME];
+    local uint leaf_counts[OTHERS_AT_A_TIME];
+    local ulong group_tests[GROUP_SIZE];
+    const uint item = (uint)get_local_id(0);
+    const uint columns = divided_up(object_count, OTHERS_AT_A_TIME);
+    const uint tiles = divided_up(chunk_count, GROUP_SIZE) * columns;
+    ulong tests = 0ul;
+    for (uint tile = (uint)get_group_id(0); tile < tiles; tile += (uint)get_num_groups(0)) {
+        const uint first = tile % columns * OTHERS_AT_A_TIME;
+        const uint count = min(OTHERS_AT_A_TIME, object_count - first);
+        for (uint k = item; k < count; k += GROUP_SIZE) {
+            root_boxes[k] = root_box(FOREST, first + k);
+            leaf_counts[k] = objects[first + k].leaves;
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        const uint chunk = tile / columns * GROUP_SIZE + item;
+        if (chunk < chunk_count)
+            tests += add_tasks(FOREST, chunks[chunk], first, count, root_boxes, leaf_counts,
+                               between, most_between, counters);
+        barrier(CLK_LOCAL_MEM_FENCE);  // they have been read
+    }
+    add_tests(group_tests, tests, counters + BOX_TESTS_COUNT);
 }

@@ -139,7 +139,7 @@ private:
             set_arguments_from(roots_, tree().bind(roots_, 0), object_count(), within() ? 1u : 0u,
                                between(object_count()) ? 1u : 0u, queues_[0], room, counters_);
             launch(roots_,
-                   std::size_t{object_count()} * divided_up(object_count(), OTHERS_A_WORK_ITEM), 64,
+                   std::size_t{object_count()} * divided_up(object_count(), OTHERS_AT_A_TIME), 64,
                    queue);
         }
         launched_ = 0;

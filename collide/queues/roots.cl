@@ -18,21 +18,21 @@ static inline void push(global uint2* queue, const uint capacity, volatile globa
 }
 
 /// Writes the first queue of bvtt: inner roots with themselves, untested, and pairs of roots whose boxes overlap; without
-/// SKIP_APART (skips.h) all pairs of roots. A work-item tests one object against OTHERS_A_WORK_ITEM objects.
+/// SKIP_APART (skips.h) all pairs of roots. A work-item tests one object against OTHERS_AT_A_TIME objects.
 kernel void find_roots(FOREST_PARAMETERS, const uint object_count, const uint within,
                        const uint between, global uint2* queue, const uint capacity,
                        volatile global uint* counters)
 {
-    const uint blocks = divided_up(object_count, OTHERS_A_WORK_ITEM);
+    const uint blocks = divided_up(object_count, OTHERS_AT_A_TIME);
     const uint own = (uint)get_global_id(0) / blocks;
-    const uint first = (uint)get_global_id(0) % blocks * OTHERS_A_WORK_ITEM;
+    const uint first = (uint)get_global_id(0) % blocks * OTHERS_AT_A_TIME;
     if (own >= object_count)
         return;
     const uint word = root_word(FOREST, own);
     const Aabb box = root_box(FOREST, own);
     if (within != 0u && first == 0u && !is_leaf_word(FOREST, word))
         push(queue, capacity, counters, (uint2)(word, word));
-    const uint end = between != 0u ? min(object_count, first + OTHERS_A_WORK_ITEM) : 0u;
+    const uint end = between != 0u ? min(object_count, first + OTHERS_AT_A_TIME) : 0u;
     uint tests = 0u;
     for (uint other = max(first, own + 1u); other < end; ++other) {
         ++tests;

@@ -46,7 +46,7 @@ static inline Aabb leaf_box_at(TREE_PARAMETERS, const uint row, const uint leaf)
 
 /// Loads the leaves of a task into `team` and their common box into `common`. True if that is loose (LOOSE).
 static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint lane,
-                              const QueryTask task, Aabb *common)
+                              global const Face *faces, const QueryTask task, Aabb *common)
 {
     PICK_TREE(task.own)
     const uint leaf_level = ceil_log2(leaves), up = min(leaf_level, BLOCK_LEVELS);
@@ -60,7 +60,7 @@ static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint la
         team->own_ids[k] = tree_triangle(TREE, leaf);
         area += half_surface(box);
     }
-    team_fence();
+    load_faces(team->own_faces, team->own_ids, lane, faces, BLOCK);
     return half_surface(*common) > LOOSE * team_sum(area);
 }
 
@@ -93,11 +93,11 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
 /// Finds the pairs of a task's leaves. Returns the number of box tests, which exceeds 32 bits if the block's box overlaps some 10^8
 /// leaves.
 static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
-                               const QueryTask task)
+                               global const Face *faces, const QueryTask task)
 {
     Aabb common;
     const bool is_own = task.own == task.other;
-    const bool is_loose = load_block(FOREST, team, lane, task, &common);
+    const bool is_loose = load_block(FOREST, team, lane, faces, task, &common);
     PICK_TREE(task.other)
     uint tests = 0u, met = 0u, kept_count = 0u, seen = 0u;
     if (is_own) {
@@ -138,28 +138,31 @@ static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMET
             const uint many = min(seen, BLOCK);
             seen -= many;
             met += many;
-            kept_count = meet_seen(team, SINK, kept_count, task.count, seen, many);
+            kept_count = meet_seen(team, SINK, faces, kept_count, task.count, seen, many);
         }
     }
     close_sink(SINK, kept_count);
     return tests + (ulong)met * task.count;
 }
 
-/// One team per task. `counters` are zero but for what between.cl added. `pairs` receives what fits; everything is counted.
+/// One team per task. `counters` are zero but for what between.cl added; `next_counters`, of the next query, are zero afterwards.
+/// `pairs` receives what fits; everything is counted.
 __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pairs(
     FOREST_PARAMETERS, global const uint *ropes, global const Face *faces, global uint2 *pairs,
-    const uint capacity, volatile global uint *counters, TASKS_PARAMETERS)
+    const uint capacity, volatile global uint *counters, TASKS_PARAMETERS,
+    global uint *next_counters, const uint counter_count)
 {
     local Team teams[TEAMS];
     local ulong tests[TEAMS];
     (void)ropes;
+    zero_next(next_counters, counter_count);
     const uint lane = (uint)get_local_id(0) % LANES, own = (uint)get_local_id(0) / LANES;
     local Team *team = teams + own;
     local uint2 *kept = team->kept;
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0) * TEAMS + own);
     ulong tested = 0ul;
     if (task.count > 0u)
-        tested = walk_block(FOREST, team, SINK, task);
+        tested = walk_block(FOREST, team, SINK, faces, task);
     if (lane == 0u)
         tests[own] = tested;
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -6,8 +6,8 @@
 
 #include "geometry/dialect.h"
 
-// Objects that a work-item tests one object against in the search for pairs of objects.
-#define OTHERS_A_WORK_ITEM 16u
+// Objects that a work-item or a group tests at a time in the search for pairs of objects and for tasks between them.
+#define OTHERS_AT_A_TIME 16u
 
 // BLOCK_LEAVES: leaves of a task of `block`; BLOCK_LEVELS: levels of the subtree that they form. TEAM_LANES: lanes of a team of
 // more than one work-item, which is LANES of builders/stages/sort/peers.clh.

@@ -60,7 +60,8 @@ private:
         if (!between(object_count()))
             return;
         between_kernel_ = kernel("collide/queues/between.cl", "find_between",
-                                 {{"TASK_LEAVES", task_leaves_},
+                                 {{"GROUP_SIZE", by_groups() ? group_size_ : 1u},
+                                  {"TASK_LEAVES", task_leaves_},
                                   {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
                                   {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
         between_room_ =
@@ -83,6 +84,7 @@ private:
             task_leaves_ = BLOCK_LEAVES;
             items_a_task_ = has_warps ? TEAM_LANES : 1;
             launch_group_ = teams * items_a_task_;
+            zeroes_next_ = true;
             walk_ = kernel("collide/walks/block.cl", "block_pairs",
                            {{"TEAMS", teams}, {"LOOSE", block_loose}}, Optimise::on_gpus);
         }
@@ -149,7 +151,7 @@ private:
         if (between(object_count())) {
             set_arguments_from(between_kernel_, tree().bind(between_kernel_, 0), own_, own_count,
                                object_count(), between_, between_room, counters_);
-            const std::size_t items = own_.size() * divided_up(object_count(), OTHERS_A_WORK_ITEM);
+            const std::size_t items = own_.size() * divided_up(object_count(), OTHERS_AT_A_TIME);
             launch(between_kernel_, by_groups() ? items : chunks_, by_groups() ? group_size_ : 1,
                    queue);
         }
@@ -158,6 +160,9 @@ private:
             return;
         if (block_pairs_ > 0)
             bind(walk_, input, own_, tasks_within, between_, between_room, blocks_);
+        else if (zeroes_next_)
+            bind(walk_, input, own_, tasks_within, between_, between_room, next_counters_,
+                 static_cast<uint>(next_counters_.size()));
         else
             bind(walk_, input, own_, tasks_within, between_, between_room);
         const std::size_t tasks = tasks_within + between_room_;
