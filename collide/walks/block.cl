@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=1u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=2u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u -DTEAMS_A_TASK=2u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DTEAMS_A_TASK=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DTEAMS_A_TASK=1u -DBOX_FORMAT=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DTEAMS_A_TASK=1u -DBOX_FORMAT=2u
 //
 // A team queries the tree with a block of 32 neighbouring leaves, which form a subtree. It traverses the implicit binary tree as
 // a tree of nodes with 32 children: each step skips five levels, Eq. (12), since a node's descendants there are contiguous in
@@ -19,6 +19,9 @@
 //
 // The traversal is depth-first, last node first. A node taken from the stack leaves at most 32 nodes, one wide level nearer to
 // the leaves. So a stack with 31 entries per wide level below the root's, plus the block's ancestors, never overflows.
+//
+// TEAMS_A_TASK teams share a task: of the nodes above the leaves each takes those whose label is its number modulo TEAMS_A_TASK, and
+// only the first tests the block's leaves against each other. All take the steps above. So long walks end sooner where there are few.
 //
 // `pairs`, `counters` and the tasks are as in group_groups.cl. Teams of a group synchronise only to add up their box tests.
 #include "collide/walks/block_team.clh"
@@ -90,21 +93,23 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
     return depth;
 }
 
-/// Finds the pairs of a task's leaves. Returns the number of box tests, which exceeds 32 bits if the block's box overlaps some 10^8
+/// Finds the pairs of a task's leaves that fall to the team of number `share` (TEAMS_A_TASK). Returns the number of box tests, which exceeds 32 bits if the block's box overlaps some 10^8
 /// leaves.
 static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
-                               global const Face *faces, const QueryTask task)
+                               global const Face *faces, const QueryTask task, const uint share)
 {
     Aabb common;
     const bool is_own = task.own == task.other;
     const bool is_loose = load_block(FOREST, team, lane, faces, task, &common);
     PICK_TREE(task.other)
     uint tests = 0u, met = 0u, kept_count = 0u, seen = 0u;
-    if (is_own) {
+    if (is_own && share == 0u) {
         kept_count = meet_within(team, SINK, kept_count, task.count);
         tests = task.count * (task.count - 1u) / 2u;
     }
     uint waiting = open_walk(TREE, team, lane, is_own ? tree_leaf(TREE, task.first) : 0u);
+    if (share > 0u && leaves <= BLOCK)  // no nodes above the leaves to share
+        waiting = 0u;
     while (waiting > 0u) {
         --waiting;
         const uint entry = team->stack[waiting], first = NODE_OF(entry) << BLOCK_LEVELS;
@@ -116,7 +121,8 @@ static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMET
             const Aabb box = SORTED_LEAVES || wide > 0u ? tree_row_box(TREE, level.x, node)
                                                         : leaf_box_at(TREE, level.x, node);
             const uint triangle = wide > 0u ? 0u : tree_triangle(TREE, node);
-            bool meets = label >= level.y && label == node && overlap(common, box);
+            bool meets = label >= level.y && label == node && overlap(common, box) &&
+                         (wide != 1u || label % TEAMS_A_TASK == share);
             if (is_loose && meets)
                 meets = meets_any(team, box);
             const uint votes = team_vote(meets);  // by now all lanes have read the entry
@@ -145,7 +151,7 @@ static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMET
     return tests + (ulong)met * task.count;
 }
 
-/// One team per task. `counters` are zero but for what between.cl added; `next_counters`, of the next query, are zero afterwards.
+/// TEAMS_A_TASK teams per task. `counters` are zero but for what between.cl added; `next_counters`, of the next query, are zero afterwards.
 /// `pairs` receives what fits; everything is counted.
 __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pairs(
     FOREST_PARAMETERS, global const uint *ropes, global const Face *faces, global uint2 *pairs,
@@ -159,10 +165,11 @@ __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pai
     const uint lane = (uint)get_local_id(0) % LANES, own = (uint)get_local_id(0) / LANES;
     local Team *team = teams + own;
     local uint2 *kept = team->kept;
-    const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0) * TEAMS + own);
+    const uint index = (uint)get_group_id(0) * TEAMS + own;
+    const QueryTask task = task_of(TASKS, counters, index / TEAMS_A_TASK);
     ulong tested = 0ul;
     if (task.count > 0u)
-        tested = walk_block(FOREST, team, SINK, faces, task);
+        tested = walk_block(FOREST, team, SINK, faces, task, index % TEAMS_A_TASK);
     if (lane == 0u)
         tests[own] = tested;
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -50,7 +50,8 @@ TEST(Block, CountsWhatAHandCounts)
     expect_oracles_pairs(*block, standing);
     const QueryCounts counts = block->counts(session().queue());
     EXPECT_EQ(counts.pairs, 39u + 38u);
-    const uint within = 32 * 31 / 2 + 8 * 7 / 2, of_nodes = 1 + 8;  // the second block, its leaves
+    const uint within = 32 * 31 / 2 + 8 * 7 / 2,
+               of_nodes = 1 + 1 + 8;  // the second block by two teams, its leaves
     EXPECT_EQ(counts.box_tests, within + of_nodes + 2 * 32);  // two of them meet the first block
 }
 
