@@ -69,7 +69,7 @@ SortShape sweeping(uint keys_per_item)
     shape.sweeps = SortShape::Sweeps::always;
     shape.sweep_group_size = bench().device.is_cpu() ? 16 : 32;
     shape.sweep_keys_per_item = keys_per_item;
-    shape.at_once = false;
+    shape.keys_at_once = 0;
     return shape;
 }
 
@@ -77,7 +77,7 @@ SortShape sweeping(uint keys_per_item)
 SortShape at_once(uint keys_per_item)
 {
     SortShape shape = sweeping(keys_per_item);
-    shape.at_once = true;
+    shape.keys_at_once = keys_per_item;
     return shape;
 }
 

@@ -12,6 +12,9 @@ namespace {
 constexpr auto groups_path = "builders/stages/sort/sort_groups.cl";
 constexpr auto chunks_path = "builders/stages/sort/sort_chunks.cl";
 
+/// Pairs of a work-item in one launch: as many as leave a tile of 512 work-items within 32 KiB of local memory.
+constexpr uint keys_at_once = 16;
+
 std::int64_t bytes(std::size_t words) { return static_cast<std::int64_t>(words * sizeof(uint)); }
 
 }  // namespace
@@ -24,7 +27,7 @@ SortShape sort_shape(const Device& device, KernelForm form)
     } else if (device.lets_groups_wait()) {
         shape.sweep_group_size = device.tuned(sweep_group_size);
         shape.sweep_keys_per_item = device.tuned(sweep_keys_per_item);
-        shape.at_once = device.tuned(sort_at_once) != 0;
+        shape.keys_at_once = device.tuned(sort_at_once) != 0 ? keys_at_once : 0;
     } else {
         shape.group_size = device.tuned(sort_group_size);
     }
@@ -42,7 +45,8 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
          (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
         digit_bits_ = tile_digit_bits;
         waiting_.emplace(programs, code_bits, shape.sweep_group_size,
-                         std::max(1u, shape.sweep_keys_per_item / words), shape.at_once);
+                         std::max(1u, shape.sweep_keys_per_item / words),
+                         shape.keys_at_once / words);
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);

@@ -23,8 +23,9 @@ struct SortShape {
     enum class Sweeps { of_device, never, always } sweeps = Sweeps::of_device;
     uint sweep_group_size = 512;
     uint sweep_keys_per_item = 8;  ///< Codes of two words: half as many.
-    /// Groups that wait only: true if few pairs are sorted in one launch (see WaitingSort).
-    bool at_once = false;
+    /// Groups that wait only: most pairs per work-item that are sorted in one launch (see WaitingSort), of codes of two words half
+    /// as many; 0: none are.
+    uint keys_at_once = 0;
 };
 
 /// Returns the tuned parameters of `device`.

@@ -20,23 +20,22 @@ constexpr uint last_epoch = (1u << state_epoch_bits) - 1;
 
 constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
 
-/// Fewest keys per work-item in one launch: with fewer, groups read more of each other's counts than they sort.
+/// Fewest keys per work-item in one launch: with fewer, there are more groups, and they wait longer for each other.
 constexpr uint fewest_keys = 4;
 
 }  // namespace
 
 WaitingSort::WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
-                         bool at_once)
+                         uint most_keys_at_once)
     : programs_(programs)
     , code_bits_(code_bits)
     , code_words_(code_words(code_bits))
     , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
     , most_keys_(most_keys)
+    , most_keys_at_once_(most_keys_at_once)
     , units_(programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
-    , most_tiles_at_once_(!at_once                               ? 0
-                          : programs.device().lets_groups_wait() ? units_
-                                                                 : 1)
+    , most_tiles_at_once_(programs.device().lets_groups_wait() ? units_ : 1)
 {
     assert(group_size >= 16 && group_size <= 512);
 }
@@ -49,6 +48,7 @@ cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) co
                              {"CODE_WORDS", code_words_},
                              {"DIGIT_BITS", tile_digit_bits},
                              {"MOST_PASSES", most_passes},
+                             {"MOST_TILES", most_tiles_at_once_},
                              {"STATE_EPOCH_BITS", state_epoch_bits}},
                             Optimise::on_gpus);
 }
@@ -57,8 +57,7 @@ void WaitingSort::plan(Arena& arena, std::size_t size)
 {
     epoch_ = 1;
     turn_ = 0;
-    is_at_once_ = most_tiles_at_once_ > 0 &&
-                  size <= std::size_t{most_tiles_at_once_} * group_size_ * most_keys_;
+    is_at_once_ = size <= std::size_t{most_tiles_at_once_} * group_size_ * most_keys_at_once_;
     const auto count = static_cast<uint>(size);
     if (is_at_once_)
         plan_at_once(arena, count);
@@ -69,11 +68,12 @@ void WaitingSort::plan(Arena& arena, std::size_t size)
 void WaitingSort::plan_at_once(Arena& arena, uint count)
 {
     const uint needed = divided_up(count, group_size_ * most_tiles_at_once_);
-    const uint keys = std::min(most_keys_, std::max(fewest_keys, needed));
+    const uint keys = std::min(most_keys_at_once_, std::max(fewest_keys, needed));
     tile_ = group_size_ * keys;
     sort_ = kernel("builders/stages/sort/sort_at_once.cl", "sort_at_once", keys);
     counters_ = {};
-    states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (digits + 1), Use::scratch);
+    const std::size_t tiles = divided_up(count, tile_);
+    states_ = arena.take<ulong>(tiles * (2 * digits + 1) + digits, Use::scratch);
 }
 
 /// Uses the requested keys per work-item, or half as many if half of the compute units would otherwise have no tile.

@@ -21,9 +21,10 @@ inline constexpr uint tile_digit_bits = 8;
 class WaitingSort {
 public:
     /// A group of `group_size` work-items, a power of two from 32 (from 16 if LANES is 1) to 512, takes `most_keys` pairs per
-    /// work-item, or fewer if there are few pairs. `at_once` allows a single launch for few pairs.
+    /// work-item, or fewer if there are few pairs. Pairs are sorted in a single launch if they are so few that no work-item takes
+    /// more than `most_keys_at_once` of them; never if that is 0.
     WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
-                bool at_once);
+                uint most_keys_at_once);
 
     void plan(Arena& arena, std::size_t size);
 
@@ -45,8 +46,8 @@ private:
                const Buffer<uint>& ids_b, uint count, Queue& queue);
 
     Programs& programs_;
-    uint code_bits_, code_words_, passes_, group_size_, most_keys_, units_;
-    uint most_tiles_at_once_;  ///< 0: never in one launch.
+    uint code_bits_, code_words_, passes_, group_size_, most_keys_, most_keys_at_once_, units_;
+    uint most_tiles_at_once_;  ///< Groups that may wait for each other.
     bool is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0;
     cl::Kernel count_, sort_;
@@ -55,7 +56,7 @@ private:
     std::array<Buffer<uint>, 2>
         counters_;  ///< sweep.cl only: a row of digits per pass, then the tiles taken in each pass.
     Buffer<ulong>
-        states_;  ///< A row of digits per tile (look_back.clh); sort_at_once.cl appends a word per tile.
+        states_;  ///< A row of digits per tile; in one launch those of tile_sums.clh, then a word per tile.
 };
 
 }  // namespace bvhbench
