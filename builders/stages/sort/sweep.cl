@@ -15,6 +15,9 @@
 #define TICKETS(pass) (MOST_PASSES * DIGITS + (pass))
 #define COUNTERS (MOST_PASSES * (DIGITS + 1u))
 
+// Codes that a work-item reads before it counts their digits, so that the reads overlap.
+#define READ_AHEAD 8u
+
 /// Counts the digits of all passes of codes of `bits` bits.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits(
     global const Code* restrict codes, volatile global uint* counters, const uint count,
@@ -25,10 +28,18 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits
     for (uint k = (uint)get_local_id(0); k < passes * DIGITS; k += GROUP_SIZE)
         counts[k] = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint k = (uint)get_global_id(0); k < count; k += (uint)get_global_size(0)) {
-        const Code code = codes[k];
-        for (uint pass = 0u; pass < passes; ++pass)
-            atomic_inc(&counts[pass * DIGITS + digit_of(code, DIGIT_BITS * pass, DIGITS - 1u)]);
+    const uint stride = (uint)get_global_size(0);
+    for (uint first = (uint)get_global_id(0); first < count; first += READ_AHEAD * stride) {
+        const uint here = min(READ_AHEAD, (count - first + stride - 1u) / stride);
+        Code own[READ_AHEAD];
+#pragma unroll
+        for (uint k = 0u; k < READ_AHEAD; ++k)
+            own[k] = codes[first + min(k, here - 1u) * stride];
+#pragma unroll
+        for (uint k = 0u; k < READ_AHEAD; ++k)
+            for (uint pass = 0u; k < here && pass < passes; ++pass)
+                atomic_inc(
+                    &counts[pass * DIGITS + digit_of(own[k], DIGIT_BITS * pass, DIGITS - 1u)]);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = (uint)get_local_id(0); k < passes * DIGITS; k += GROUP_SIZE)

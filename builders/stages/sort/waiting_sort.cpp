@@ -25,14 +25,14 @@ constexpr uint fewest_keys = 4;
 
 }  // namespace
 
-WaitingSort::WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
+WaitingSort::WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
                          uint most_keys_at_once)
     : programs_(programs)
     , code_bits_(code_bits)
     , code_words_(code_words(code_bits))
     , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
-    , most_keys_(most_keys)
+    , keys_(keys)
     , most_keys_at_once_(most_keys_at_once)
     , units_(programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
     , most_tiles_at_once_(programs.device().lets_groups_wait() ? units_ : 1)
@@ -76,14 +76,11 @@ void WaitingSort::plan_at_once(Arena& arena, uint count)
     states_ = arena.take<ulong>(tiles * (2 * digits + 1) + digits, Use::scratch);
 }
 
-/// Uses the requested keys per work-item, or half as many if half of the compute units would otherwise have no tile.
 void WaitingSort::plan_sweeps(Arena& arena, uint count)
 {
-    const bool is_small = count < std::size_t{units_} * group_size_ * most_keys_ / 2;
-    const uint keys = is_small ? divided_up(most_keys_, 2u) : most_keys_;
-    tile_ = group_size_ * keys;
-    count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys);
-    sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys);
+    tile_ = group_size_ * keys_;
+    count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys_);
+    sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys_);
     for (Buffer<uint>& counters : counters_)
         counters = arena.take<uint>(most_passes * (digits + 1), Use::scratch);
     states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * digits, Use::scratch);

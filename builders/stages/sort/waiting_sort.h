@@ -20,10 +20,10 @@ inline constexpr uint tile_digit_bits = 8;
 ///                        groups cannot wait).
 class WaitingSort {
 public:
-    /// A group of `group_size` work-items, a power of two from 32 (from 16 if LANES is 1) to 512, takes `most_keys` pairs per
-    /// work-item, or fewer if there are few pairs. Pairs are sorted in a single launch if they are so few that no work-item takes
-    /// more than `most_keys_at_once` of them; never if that is 0.
-    WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
+    /// A group of `group_size` work-items, a power of two from 32 (from 16 if LANES is 1) to 512, takes `keys` pairs per
+    /// work-item. Pairs are sorted in a single launch if they are so few that no work-item takes more than `most_keys_at_once` of
+    /// them; never if that is 0.
+    WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
                 uint most_keys_at_once);
 
     void plan(Arena& arena, std::size_t size);
@@ -46,7 +46,7 @@ private:
                const Buffer<uint>& ids_b, uint count, Queue& queue);
 
     Programs& programs_;
-    uint code_bits_, code_words_, passes_, group_size_, most_keys_, most_keys_at_once_, units_;
+    uint code_bits_, code_words_, passes_, group_size_, keys_, most_keys_at_once_, units_;
     uint most_tiles_at_once_;  ///< Groups that may wait for each other.
     bool is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0;
