@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=16u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u -DMOST_TILES=144u
-// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u -DMOST_TILES=1u
+// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=16u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u -DMOST_TILES=144u -DFEW_TILES=16u
+// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u -DMOST_TILES=1u -DFEW_TILES=16u
 //
 // The passes of sweep.cl in one launch, for so few pairs that each group has one tile and all groups are resident at the same
-// time. There is no counting beforehand and no look-back tile by tile: groups share the summing of digit counts
+// time. There is no counting beforehand and no look-back tile by tile: groups sum up each other's digit counts
 // (tile_sums.clh). After a pass, groups wait until all have written their pairs; each then continues with the pairs that are
 // now in its tile.
 //
@@ -41,8 +41,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once
             starts[digit] = sum_of_teams(words, digit);
         announce_counts(states, starts, tile, tiles, now);
         scan_digits(starts, team_sums);
-        sum_own_digits(states, columns, tile, tiles, now);
-        find_places(states, places, team_sums, tile, tiles, now);
+        find_places(states, places, columns, team_sums, tile, tiles, now);
         for (OWN_DIGITS(digit))
             places[digit] -= starts[digit];
         barrier(CLK_LOCAL_MEM_FENCE);

@@ -23,6 +23,9 @@ constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
 /// Fewest keys per work-item in one launch: with fewer, there are more groups, and they wait longer for each other.
 constexpr uint fewest_keys = 4;
 
+/// Most tiles whose counts each group reads itself (tile_sums.clh).
+constexpr uint few_tiles = 16;
+
 }  // namespace
 
 WaitingSort::WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
@@ -49,6 +52,7 @@ cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) co
                              {"DIGIT_BITS", tile_digit_bits},
                              {"MOST_PASSES", most_passes},
                              {"MOST_TILES", most_tiles_at_once_},
+                             {"FEW_TILES", few_tiles},
                              {"STATE_EPOCH_BITS", state_epoch_bits}},
                             Optimise::on_gpus);
 }
