@@ -24,7 +24,9 @@ SortShape sort_shape(const Device& device, KernelForm form)
     SortShape shape{.form = chosen_form(device, form)};
     if (shape.form == KernelForm::chunks) {
         shape.chunk_digit_bits = device.tuned(sort_chunk_digit_bits);
-    } else if (device.lets_groups_wait()) {
+    } else if (device.lets_groups_wait() || (device.is_cpu() && device.tuned(sort_at_once) != 0)) {
+        // A CPU runs groups in order, so those that a group waits for have started. It is chosen there in tests only.
+        shape.sweeps = SortShape::Sweeps::always;
         shape.sweep_group_size = device.tuned(sweep_group_size);
         shape.sweep_keys_per_item = device.tuned(sweep_keys_per_item);
         shape.keys_at_once = device.tuned(sort_at_once) != 0 ? keys_at_once : 0;
@@ -85,7 +87,7 @@ uint RadixSort::run_count(std::size_t size) const
     return std::min(count, static_cast<uint>(chunks_));
 }
 
-void RadixSort::plan(Arena& arena, std::size_t size)
+void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
 {
     size_ = size;
     const std::size_t words = size * code_words(code_bits_);
@@ -95,7 +97,7 @@ void RadixSort::plan(Arena& arena, std::size_t size)
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
     if (waiting_) {
-        waiting_->plan(arena, size);
+        waiting_->plan(arena, size, keeps_codes);
         return;
     }
     counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
@@ -110,22 +112,26 @@ void RadixSort::prepare(const cl::CommandQueue& queue)
 
 void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
 
-void RadixSort::enqueue(Queue& queue) { enqueue_passes(queue, static_cast<uint>(size_), ids()); }
+void RadixSort::enqueue(Queue& queue, bool is_counted)
+{
+    enqueue_passes(queue, static_cast<uint>(size_), ids(), is_counted);
+}
 
 void RadixSort::enqueue_aside(Queue& queue, uint count)
 {
     assert(count > 0 && count <= aside_.size());
-    enqueue_passes(queue, count, aside_);
+    enqueue_passes(queue, count, aside_, false);
 }
 
-void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result)
+void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
+                               bool is_counted)
 {
     queue.begin("sort");
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
     if (waiting_) {
-        waiting_->enqueue(codes_, result, other, count, queue);
+        waiting_->enqueue(codes_, result, other, count, is_counted, queue);
         return;
     }
     for (uint pass = 0; pass < passes_; ++pass) {
