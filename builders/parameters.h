@@ -47,9 +47,8 @@ inline constexpr Parameter sort_at_once{
     .name = "sort.at_once",
     .meaning =
         "where groups wait, 2: few leaves get boxes, codes and order in one launch; 1: few are "
-        "sorted in one launch; 0: in "
-        "one launch a pass",
-    .stage = "sort",
+        "sorted in one launch; 0: in one launch a pass",
+    .stage = "",
     .on_cpu = 0,
     .elsewhere = sort_at_once_with_boxes,
     .least = 0,
