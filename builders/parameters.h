@@ -42,15 +42,18 @@ inline constexpr Parameter sweep_keys_per_item =
             "pairs a work-item ranks where groups wait; of codes of two words half as many",
             {1, 32}, {4, 6, 8, 10, 12, 16});
 
+inline constexpr uint sort_at_once_with_boxes = 2;
 inline constexpr Parameter sort_at_once{
     .name = "sort.at_once",
-    .meaning = "where groups wait, 1: few pairs are sorted in one launch; 0: in one launch a pass",
-    .stage = "sort",
+    .meaning =
+        "where groups wait, 2: few leaves get boxes, codes and order in one launch; 1: few are "
+        "sorted in one launch; 0: in one launch a pass",
+    .stage = "",
     .on_cpu = 0,
-    .elsewhere = 1,
+    .elsewhere = sort_at_once_with_boxes,
     .least = 0,
-    .most = 1,
-    .candidates = {0, 1}};
+    .most = sort_at_once_with_boxes,
+    .candidates = {0, 1, 2}};
 
 inline constexpr Parameter medians_group_size = usually(
     256, "medians.group_size", "order", "work-items in a group that orders a block of leaves",

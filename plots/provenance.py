@@ -21,7 +21,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 SKIPS = "collide/skips.cpp"  # rules, and where each is off
 # Where the kernels of a stage are: beginnings of paths. A builder makes the stages of OF_BUILDER, a collider `broad`.
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
-          "order": ("builders/stages/medians/",), "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
+          "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
+          "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
           "narrow": ("collide/narrow/",), "near": ("collide/near",), "exchange": ("cluster/",)}
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "builders/device_tree.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -43,8 +44,11 @@ void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool 
         codes_.emplace(programs_, order_, form_, sizes.size());
         sort_.emplace(programs_, kept_code_bits(order_.code_bits, sizes.size()) + object_bits,
                       sort_shape(programs_.device(), form_));
-        sort_->plan(arena, primitives);
+        sort_->plan(arena, primitives, reads_codes && !blocks_);
+        if (sort_->takes_counts())
+            codes_->plan_counting();
         ids_ = sort_->ids();
+        plan_at_once();
     }
     if (blocks_)
         blocks_->plan(arena, primitives);
@@ -58,21 +62,61 @@ void LeafOrder::prepare(const cl::CommandQueue& queue)
         sort_->prepare(queue);
 }
 
+/// Plans one launch for boxes, codes and sort, if the sort is one launch and the device's parameter says so.
+void LeafOrder::plan_at_once()
+{
+    is_at_once_ = sizes_.size() == 1 && sort_->is_at_once() &&
+                  programs_.device().tuned(sort_at_once) == sort_at_once_with_boxes;
+    if (!is_at_once_)
+        return;
+    std::vector<Define> defines = codes_->defines();
+    defines.push_back({"SWEPT", 0});
+    at_once_ = sort_->beginning_with("builders/ordered/order_at_once.cl", "order_at_once", defines);
+}
+
 void LeafOrder::enqueue(const Input& input, Queue& queue)
 {
-    enqueue_boxes(input, queue);
-    if (codes_) {
-        codes_->enqueue(boxes(), grid_bounds(), input.device_owners, sort_->unsorted_codes(),
-                        queue);
-        sort_->enqueue(queue);
-    }
+    const bool in_one_launch = is_at_once_ && !input.is_swept();
+    if (in_one_launch)
+        enqueue_at_once(input, queue);
+    else
+        enqueue_stages(input, queue);
     if (!blocks_)
         return;
-    queue.begin("order");
+    if (!in_one_launch)
+        queue.begin("order");
     if (cells_)
         cells_->enqueue(boxes(), bounds(), ids_, blocks_->scratch(), queue);
     blocks_->enqueue(boxes(), ids_, queue);
     number_->enqueue(positions_, queue);
+}
+
+void LeafOrder::enqueue_at_once(const Input& input, Queue& queue)
+{
+    queue.begin("order");
+    const cl_uint next = set_arguments_from(at_once_, 0, input.device_points, input.device_faces,
+                                            bounds_.boxes(), bounds_.bounds());
+    sort_->enqueue_beginning(
+        at_once_, next,
+        static_cast<std::int64_t>(input.point_bytes() + input.device_faces.bytes() +
+                                  boxes().bytes()),
+        queue);
+}
+
+void LeafOrder::enqueue_stages(const Input& input, Queue& queue)
+{
+    enqueue_boxes(input, queue);
+    if (!codes_)
+        return;
+    const bool counts = sort_->takes_counts();
+    if (counts)
+        codes_->enqueue_counted(boxes(), grid_bounds(), input.device_owners,
+                                sort_->unsorted_codes(), sort_->counters(), sort_->code_bits(),
+                                queue);
+    else
+        codes_->enqueue(boxes(), grid_bounds(), input.device_owners, sort_->unsorted_codes(),
+                        queue);
+    sort_->enqueue(queue, counts);
 }
 
 void LeafOrder::enqueue_boxes(const Input& input, Queue& queue) { bounds_.enqueue(input, queue); }

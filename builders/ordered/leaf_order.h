@@ -72,6 +72,10 @@ public:
     unsigned code_bits() const;  ///< Bits of `codes`.
 
 private:
+    void plan_at_once();
+    void enqueue_stages(const Input& input, Queue& queue);
+    void enqueue_at_once(const Input& input, Queue& queue);
+
     /// Returns the bounds that codes are computed in.
     const Buffer<Bounds>& grid_bounds() const
     {
@@ -86,6 +90,8 @@ private:
     BoundsStage bounds_;
     std::optional<CodesStage> codes_;  ///< Absent, with the sort, if medians are everywhere.
     std::optional<RadixSort> sort_;
+    cl::Kernel at_once_;  ///< Boxes, codes and sort in one launch, if `is_at_once_`.
+    bool is_at_once_ = false;
     std::optional<CellMedians> cells_;  ///< If medians are everywhere.
     std::optional<BlockMedians> blocks_;
     std::optional<NumberAll> number_;

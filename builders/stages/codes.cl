@@ -7,18 +7,7 @@
 // (SEVERAL_OBJECTS) each code is computed in all_bounds[bounds_apart * object]; with bounds_apart 0 all objects share the
 // first. Such a code has the object number above the box's code, without the lowest `dropped` bits of it, for which there is no
 // room.
-#include "builders/stages/code_of.clh"
-#include "geometry/box_words.clh"
-
-static inline Code code_of_box(const Aabb box, const Bounds bounds)
-{
-    const GridCell cell = CELL_OF(box, bounds);
-#if HILBERT
-    return MORTON_CODE(hilbert_cell(cell, AXIS_BITS));
-#else
-    return MORTON_CODE(cell);
-#endif
-}
+#include "builders/stages/box_code.clh"
 
 kernel void codes_of_all(global const float2* restrict boxes,
                          global const Bounds* restrict all_bounds,
@@ -29,9 +18,8 @@ kernel void codes_of_all(global const float2* restrict boxes,
     const uint k = (uint)get_global_id(0);
     if (k < count) {
         const Aabb box = load_box(boxes, k);
-        const uint owner = SEVERAL_OBJECTS ? owners[k] : 0u;
-        const Code code = code_of_box(box, all_bounds[bounds_apart * owner]);
-        codes[k] = SEVERAL_OBJECTS ? (Code)owner << object_shift | code >> dropped : code;
+        codes[k] = code_in_object(box, all_bounds, bounds_apart, SEVERAL_OBJECTS ? owners[k] : 0u,
+                                  object_shift, dropped);
     }
 }
 
@@ -42,8 +30,7 @@ kernel void codes_of_runs(global const float2* restrict boxes,
                           const uint dropped, const uint object_shift, const uint bounds_apart)
 {
     const uint4 run = runs[get_group_id(0)];
-    const Bounds bounds = all_bounds[bounds_apart * run.z];
     for (uint k = run.x + (uint)get_local_id(0); k < run.y; k += (uint)get_local_size(0))
-        codes[k - run.w] =
-            (Code)run.z << object_shift | code_of_box(load_box(boxes, k), bounds) >> dropped;
+        codes[k - run.w] = code_in_object(load_box(boxes, k), all_bounds, bounds_apart, run.z,
+                                          object_shift, dropped);
 }

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "builders/stages/codes.h"
 
+#include "builders/stages/sort/waiting_sort.h"
+
 namespace bvhbench {
 namespace {
+
+/// Where digits are counted: few groups, since each adds all of its counts to those of the others.
+constexpr std::size_t counting_groups_per_unit = 4;
+constexpr uint counting_group_size = 512;
 
 /// Returns the distance between the bounds of consecutive objects, in elements: 0 if all objects share one.
 uint apart(const Buffer<Bounds>& bounds) { return bounds.size() > 1 ? 1 : 0; }
@@ -11,24 +17,35 @@ uint apart(const Buffer<Bounds>& bounds) { return bounds.size() > 1 ? 1 : 0; }
 
 CodesStage::CodesStage(Programs& programs, const OrderEntry& order, KernelForm form,
                        std::size_t objects)
-    : words_(code_words(order.code_bits))
+    : programs_(programs)
+    , order_(order)
+    , is_forest_(objects > 1)
+    , words_(code_words(order.code_bits))
     , kept_(kept_code_bits(order.code_bits, objects))
     , dropped_(order.code_bits - kept_)
     , group_size_(programs.device().tuned(codes_group_size))
     , form_(chosen_form(programs.device(), form))
     , chunks_(chunk_count(programs.device()))
 {
-    const auto kernel = [&](const char* name) {
-        return programs.kernel(form_ == KernelForm::groups ? "builders/stages/codes.cl"
-                                                           : "builders/stages/codes_chunks.cl",
-                               name,
-                               {{"AXIS_BITS", order.code_bits / 3},
-                                {"HILBERT", order.is_hilbert ? 1u : 0u},
-                                {"STRETCHED", order.is_stretched ? 1u : 0u},
-                                {"SEVERAL_OBJECTS", objects > 1 ? 1u : 0u}});
-    };
-    kernel_ = kernel("codes_of_all");
-    runs_kernel_ = kernel("codes_of_runs");
+    const char* path = form_ == KernelForm::groups ? "builders/stages/codes.cl"
+                                                   : "builders/stages/codes_chunks.cl";
+    kernel_ = programs.kernel(path, "codes_of_all", defines());
+    runs_kernel_ = programs.kernel(path, "codes_of_runs", defines());
+}
+
+std::vector<Define> CodesStage::defines() const
+{
+    return {{"AXIS_BITS", order_.code_bits / 3},
+            {"HILBERT", order_.is_hilbert ? 1u : 0u},
+            {"STRETCHED", order_.is_stretched ? 1u : 0u},
+            {"SEVERAL_OBJECTS", is_forest_ ? 1u : 0u}};
+}
+
+void CodesStage::plan_counting()
+{
+    std::vector<Define> all = defines();
+    all.insert(all.end(), {{"DIGIT_BITS", tile_digit_bits}, {"MOST_PASSES", most_tile_passes}});
+    counted_kernel_ = programs_.kernel("builders/stages/codes_counted.cl", "codes_counted", all);
 }
 
 void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
@@ -43,6 +60,23 @@ void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds
     queue.launch(
         kernel_, by_groups ? std::size_t{divided_up(count, group_size_)} * group_size_ : chunks_,
         by_groups ? group_size_ : 1, static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
+}
+
+void CodesStage::enqueue_counted(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
+                                 const Buffer<uint>& owners, const Buffer<uint>& codes,
+                                 const Buffer<uint>& counters, uint bits, Queue& queue)
+{
+    queue.begin("codes");
+    const auto count = static_cast<uint>(boxes.size());
+    if (count == 0)
+        return;
+    set_arguments(counted_kernel_, boxes, bounds, owners, codes, count, dropped_, kept_,
+                  apart(bounds), counters, bits);
+    const std::size_t units = programs_.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    const std::size_t groups = std::min(std::size_t{divided_up(count, counting_group_size)},
+                                        counting_groups_per_unit * units);
+    queue.launch(counted_kernel_, groups * counting_group_size, counting_group_size,
+                 static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
 }
 
 void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,

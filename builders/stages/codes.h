@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <vector>
 
 #include "builders/orders.h"
 #include "builders/stages/object_runs.h"
@@ -33,17 +34,32 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
                  const Buffer<uint>& owners, const Buffer<uint>& codes, Queue& queue);
 
+    /// Prepares enqueue_counted, for a device with local memory.
+    void plan_counting();
+
+    /// As `enqueue`, and adds the counts of the codes' digits to `counters` (RadixSort::counters). `bits` are those of a code and its
+    /// object number.
+    void enqueue_counted(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
+                         const Buffer<uint>& owners, const Buffer<uint>& codes,
+                         const Buffer<uint>& counters, uint bits, Queue& queue);
+
     /// Enqueues the codes of the objects that `runs` reorders (at least one, of several), stored one object after the other.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const ObjectRuns& runs,
                  const Buffer<uint>& codes, Queue& queue);
 
+    /// Returns the defines of kernels that compute codes (code_of.clh).
+    std::vector<Define> defines() const;
+
 private:
+    Programs& programs_;
+    const OrderEntry& order_;
+    bool is_forest_;
     uint words_;
     uint kept_, dropped_;  ///< Bits of a box's code.
     uint group_size_;
     KernelForm form_;
     std::size_t chunks_;
-    cl::Kernel kernel_, runs_kernel_;
+    cl::Kernel kernel_, runs_kernel_, counted_kernel_;
 };
 
 }  // namespace bvhbench

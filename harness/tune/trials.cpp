@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "builders/parameters.h"
 #include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
 #include "collide/parameters.h"
@@ -151,9 +152,13 @@ TuneTarget::TuneTarget(Session& session, TuneTask task) : session_(session), tas
 
 std::unique_ptr<Trial> TuneTarget::trial(const Tuning& tuning)
 {
+    const bool of_sort = task_.target == sort_stage;
+    Tuning own = tuning;
+    if (of_sort && own.value(sort_at_once, session_.device().is_cpu()) == sort_at_once_with_boxes)
+        own.set(sort_at_once, 1);  // the sort is a stage of its own
     if (task_.collider.name.empty())
-        return std::make_unique<BuildTrial>(session_, tuning, task_.builder, input_, oracle_,
-                                            task_.target == sort_stage ? sort_stage : "");
+        return std::make_unique<BuildTrial>(session_, own, task_.builder, input_, oracle_,
+                                            of_sort ? sort_stage : "");
     return std::make_unique<CollideTrial>(session_, tuning, task_, scene_, input_, pairs_,
                                           contacts_);
 }

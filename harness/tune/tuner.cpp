@@ -13,16 +13,16 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the times of one stage in all samples, in nanoseconds; of all stages together if `stage` is empty.
+/// Returns the times of one stage in all samples, in nanoseconds; of all stages together if `stage` is empty or was part of another.
 std::vector<double> times_of(const std::vector<Sample>& samples, std::string_view stage)
 {
     std::vector<double> times;
     for (const Sample& sample : samples) {
-        double ns = stage.empty() ? whole_ns(sample.stages) : 0;
+        double ns = 0;
         for (const StageTime& time : sample.stages)
             if (time.stage == stage)
                 ns += static_cast<double>(time.elapsed_ns());
-        times.push_back(ns);
+        times.push_back(ns > 0 ? ns : whole_ns(sample.stages));
     }
     return times;
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "builders/stages/bounds.h"
 #include "geometry/error.h"
 #include "tests/all_cases.h"
@@ -14,7 +16,25 @@ namespace {
 struct Case {
     KernelForm form;
     std::string order;
+    uint at_once = 0;  ///< sort.at_once, on devices whose groups do not wait
 };
+
+/// Returns programs of the same device with sort.at_once as given, so that groups wait on a CPU too.
+Programs& programs_at_once(uint at_once)
+{
+    if (at_once == 0)
+        return bench().programs;
+    static std::map<uint, Programs*> all;
+    Programs*& programs = all[at_once];
+    if (programs == nullptr) {
+        Device& device = *new Device(bench().device);
+        device.tuning.set(sort_at_once, at_once);
+        if (device.is_cpu())  // where a team is one work-item, large groups need much local memory
+            device.tuning.set(sweep_group_size, sweep_group_size.least);
+        programs = new Programs(device);
+    }
+    return *programs;
+}
 
 class LeafOrderContract : public testing::TestWithParam<Case> {
 protected:
@@ -43,7 +63,8 @@ protected:
 
     void SetUp() override
     {
-        order_ = std::make_unique<LeafOrder>(bench().programs, GetParam().order, GetParam().form);
+        order_ = std::make_unique<LeafOrder>(programs_at_once(GetParam().at_once), GetParam().order,
+                                             GetParam().form);
     }
 
     std::unique_ptr<LeafOrder> order_;
@@ -66,7 +87,7 @@ TEST_P(LeafOrderContract, EqualsTheHostsOfEverySize)
         const std::string& name = GetParam().order;
         const bool has_codes_alone = find_order(name).medians == Medians::nowhere;
         if (size > (takes_all_cases() ? 10'000 : 257) && has_codes_alone && name != "morton30" &&
-            name != "hilbert63")
+            name != "hilbert63" && GetParam().at_once == 0)
             continue;
         SCOPED_TRACE(size);
         expect_equal_to_host(random_mesh(size));
@@ -77,10 +98,15 @@ TEST_P(LeafOrderContract, NamesItsStagesAndWhatTheyMove)
 {
     expect_equal_to_host(random_mesh(100));
     const OrderEntry& order = find_order(GetParam().order);
-    std::vector<std::string> expected = {"bounds"};
-    if (order.code_bits > 0)
+    const Device& device = programs_at_once(GetParam().at_once).device();
+    const bool in_one_launch = order.code_bits > 0 && GetParam().form == KernelForm::groups &&
+                               device.tuned(sort_at_once) == sort_at_once_with_boxes;
+    std::vector<std::string> expected;
+    if (!in_one_launch)
+        expected.push_back("bounds");
+    if (!in_one_launch && order.code_bits > 0)
         expected.insert(expected.end(), {"codes", "sort"});
-    if (order.medians != Medians::nowhere)
+    if (in_one_launch || order.medians != Medians::nowhere)
         expected.push_back("order");
     std::vector<std::string> stages;
     for (const StageTime& stage : stages_)
@@ -90,21 +116,27 @@ TEST_P(LeafOrderContract, NamesItsStagesAndWhatTheyMove)
         EXPECT_GT(stage.moved_bytes, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllOrders, LeafOrderContract, testing::ValuesIn([] {
-                             std::vector<Case> cases;
-                             for (const OrderEntry& order : order_catalog())
-                                 for (const KernelForm form : both_forms)
-                                     cases.push_back({form, std::string(order.name)});
-                             return cases;
-                         }()),
-                         [](const auto& instance) {
-                             // GoogleTest accepts only letters, digits and _.
-                             std::string name =
-                                 instance.param.order + "_" + form_name(instance.param.form);
-                             std::ranges::replace_if(
-                                 name, [](char c) { return c == '-' || c == '+'; }, '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    AllOrders, LeafOrderContract, testing::ValuesIn([] {
+        std::vector<Case> cases;
+        for (const OrderEntry& order : order_catalog())
+            for (const KernelForm form : both_forms)
+                cases.push_back({form, std::string(order.name)});
+        for (const char* order : {"morton30", "hilbert63"})
+            cases.push_back({KernelForm::groups, order, 1});
+        for (const char* order : {"morton30", "hilbert30-axis", "hilbert63", "hilbert30+kd1024"})
+            cases.push_back({KernelForm::groups, order, sort_at_once_with_boxes});
+        return cases;
+    }()),
+    [](const auto& instance) {
+        // GoogleTest accepts only letters, digits and _.
+        std::string name = instance.param.order + "_" + form_name(instance.param.form);
+        if (instance.param.at_once > 0)
+            name += "_at_once_" + std::to_string(instance.param.at_once);
+        std::ranges::replace_if(
+            name, [](char c) { return c == '-' || c == '+'; }, '_');
+        return name;
+    });
 
 /// Each object's leaves use a grid of that object, or all use the scene's; with many objects the lowest code bits are dropped.
 TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)

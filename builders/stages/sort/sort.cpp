@@ -12,6 +12,9 @@ namespace {
 constexpr auto groups_path = "builders/stages/sort/sort_groups.cl";
 constexpr auto chunks_path = "builders/stages/sort/sort_chunks.cl";
 
+/// Pairs of a work-item in one launch: as many as leave a tile of 512 work-items within 32 KiB of local memory.
+constexpr uint keys_at_once = 16;
+
 std::int64_t bytes(std::size_t words) { return static_cast<std::int64_t>(words * sizeof(uint)); }
 
 }  // namespace
@@ -21,10 +24,12 @@ SortShape sort_shape(const Device& device, KernelForm form)
     SortShape shape{.form = chosen_form(device, form)};
     if (shape.form == KernelForm::chunks) {
         shape.chunk_digit_bits = device.tuned(sort_chunk_digit_bits);
-    } else if (device.lets_groups_wait()) {
+    } else if (device.lets_groups_wait() || (device.is_cpu() && device.tuned(sort_at_once) != 0)) {
+        // A CPU runs groups in order, so those that a group waits for have started. It is chosen there in tests only.
+        shape.sweeps = SortShape::Sweeps::always;
         shape.sweep_group_size = device.tuned(sweep_group_size);
         shape.sweep_keys_per_item = device.tuned(sweep_keys_per_item);
-        shape.at_once = device.tuned(sort_at_once) != 0;
+        shape.keys_at_once = device.tuned(sort_at_once) != 0 ? keys_at_once : 0;
     } else {
         shape.group_size = device.tuned(sort_group_size);
     }
@@ -42,7 +47,8 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
          (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
         digit_bits_ = tile_digit_bits;
         waiting_.emplace(programs, code_bits, shape.sweep_group_size,
-                         std::max(1u, shape.sweep_keys_per_item / words), shape.at_once);
+                         std::max(1u, shape.sweep_keys_per_item / words),
+                         shape.keys_at_once / words);
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
@@ -80,7 +86,7 @@ uint RadixSort::run_count(std::size_t size) const
     return std::min(count, static_cast<uint>(chunks_));
 }
 
-void RadixSort::plan(Arena& arena, std::size_t size)
+void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
 {
     size_ = size;
     const std::size_t words = size * code_words(code_bits_);
@@ -90,7 +96,7 @@ void RadixSort::plan(Arena& arena, std::size_t size)
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
     if (waiting_) {
-        waiting_->plan(arena, size);
+        waiting_->plan(arena, size, keeps_codes);
         return;
     }
     counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
@@ -105,22 +111,26 @@ void RadixSort::prepare(const cl::CommandQueue& queue)
 
 void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
 
-void RadixSort::enqueue(Queue& queue) { enqueue_passes(queue, static_cast<uint>(size_), ids()); }
+void RadixSort::enqueue(Queue& queue, bool is_counted)
+{
+    enqueue_passes(queue, static_cast<uint>(size_), ids(), is_counted);
+}
 
 void RadixSort::enqueue_aside(Queue& queue, uint count)
 {
     assert(count > 0 && count <= aside_.size());
-    enqueue_passes(queue, count, aside_);
+    enqueue_passes(queue, count, aside_, false);
 }
 
-void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result)
+void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
+                               bool is_counted)
 {
     queue.begin("sort");
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
     if (waiting_) {
-        waiting_->enqueue(codes_, result, other, count, queue);
+        waiting_->enqueue(codes_, result, other, count, is_counted, queue);
         return;
     }
     for (uint pass = 0; pass < passes_; ++pass) {

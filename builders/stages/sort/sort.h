@@ -23,8 +23,9 @@ struct SortShape {
     enum class Sweeps { of_device, never, always } sweeps = Sweeps::of_device;
     uint sweep_group_size = 512;
     uint sweep_keys_per_item = 8;  ///< Codes of two words: half as many.
-    /// Groups that wait only: true if few pairs are sorted in one launch (see WaitingSort).
-    bool at_once = false;
+    /// Groups that wait only: most pairs per work-item that are sorted in one launch (see WaitingSort), of codes of two words half
+    /// as many; 0: none are.
+    uint keys_at_once = 0;
 };
 
 /// Returns the tuned parameters of `device`.
@@ -36,8 +37,9 @@ class RadixSort {
 public:
     RadixSort(Programs& programs, unsigned code_bits, SortShape shape = {});
 
-    /// Takes the buffers for `size` pairs, 0 to 2^31. Sorted ids are counted as tree memory, the rest as scratch.
-    void plan(Arena& arena, std::size_t size);
+    /// Takes the buffers for `size` pairs, 0 to 2^31. Sorted ids are counted as tree memory, the rest as scratch. Without
+    /// `keeps_codes`, `codes` is undefined, and passes may move fewer bytes.
+    void plan(Arena& arena, std::size_t size, bool keeps_codes = true);
 
     /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
@@ -48,19 +50,42 @@ public:
     /// Input, code_words(code_bits) words per code; `enqueue` overwrites it.
     const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
 
-    /// Enqueues the sort of all pairs. Allocates nothing and does not block.
-    void enqueue(Queue& queue);
+    /// True if the planned sort needs the counts of all digits, so that who makes the codes may count them.
+    bool takes_counts() const { return waiting_ && waiting_->takes_counts(); }
+    /// If it does: where the counts for the next `enqueue` belong, a row of digits per pass (digit_counts.clh); all zero before.
+    const Buffer<uint>& counters() const { return waiting_->counters(); }
+    uint code_bits() const { return code_bits_; }
+
+    /// True if the planned sort is one launch, which may begin with what comes before it.
+    bool is_at_once() const { return waiting_ && waiting_->is_at_once(); }
+    /// The kernel of such a launch (WaitingSort::beginning_with).
+    cl::Kernel beginning_with(const char* path, const char* name,
+                              std::span<const Define> defines) const
+    {
+        return waiting_->beginning_with(path, name, defines);
+    }
+    /// Enqueues such a launch (WaitingSort::enqueue_beginning).
+    void enqueue_beginning(cl::Kernel& kernel, cl_uint next, std::int64_t moved_bytes, Queue& queue)
+    {
+        waiting_->enqueue_beginning(kernel, next, codes_, ids(), moved_bytes, queue);
+    }
+
+    /// Enqueues the sort of all pairs. With `is_counted`, `counters` has the counts. Allocates nothing and does not block.
+    void enqueue(Queue& queue, bool is_counted = false);
 
     /// Sorts only the first `count` pairs (count >= 1). Writes the ids to `ids_aside`; the ids of an earlier sort are kept.
     void enqueue_aside(Queue& queue, uint count);
 
     const Buffer<uint>& ids_aside() const { return aside_; }
-    const Buffer<uint>& codes() const { return codes_[passes_ % 2]; }  ///< Ascending.
-    const Buffer<uint>& ids() const { return ids_[passes_ % 2]; }      ///< Ids of the sorted codes.
+    const Buffer<uint>& codes() const  ///< Ascending.
+    {
+        return codes_[is_at_once() ? 1 : passes_ % 2];
+    }
+    const Buffer<uint>& ids() const { return ids_[passes_ % 2]; }  ///< Ids of the sorted codes.
 
 private:
     uint run_count(std::size_t size) const;
-    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result);
+    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result, bool is_counted);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
                       const Buffer<uint>& ids_out);
 

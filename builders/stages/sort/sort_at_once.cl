@@ -1,91 +1,25 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=4u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
-// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
+// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=16u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u -DMOST_TILES=144u -DFEW_TILES=16u -DPOST_ID_BITS=28u
+// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u -DMOST_TILES=1u -DFEW_TILES=16u -DPOST_ID_BITS=28u
 //
-// The passes of sweep.cl in one launch, for so few pairs that each group has one tile and all groups are resident at the same
-// time. There is no counting beforehand and no look-back tile by tile: each group reads all other groups' digit counts at once,
-// which gives both the total of each digit and the sum over earlier tiles. After a pass, groups wait until all have written
-// their pairs; each then continues with the pairs that are now in its tile.
-//
-// Buffers swap roles within the launch, so none is restrict; a restrict buffer may be read through a cache that is not
-// coherent.
-#include "builders/stages/sort/look_back.clh"
-#include "builders/stages/sort/tile_digits.clh"
+// The passes of sweep.cl in one launch (at_once.clh).
+#include "builders/stages/sort/at_once.clh"
 
-// Work-items that read the states of one digit, and states that each of them reads at once.
-#define PARTS (GROUP_SIZE > DIGITS ? GROUP_SIZE / DIGITS : 1u)
-#define WINDOW 8u
-
-/// Adds to totals[d] the number of pairs with digit d, and to before[d] the number of those in tiles before `own`.
-static inline void read_tiles(local uint* const totals, local uint* const before,
-                              volatile global const ulong* states, const uint own, const uint tiles,
-                              const uint epoch)
-{
-    for (uint work = (uint)get_local_id(0); work < DIGITS * PARTS; work += GROUP_SIZE) {
-        const uint digit = work % DIGITS;
-        uint total = 0u, earlier = 0u;
-        for (uint first = work / DIGITS; first < tiles; first += PARTS * WINDOW) {
-            ulong seen[WINDOW];
-#pragma unroll
-            for (uint k = 0u; k < WINDOW; ++k)
-                seen[k] = posted(&states[min(first + k * PARTS, tiles - 1u) * DIGITS + digit]);
-#pragma unroll
-            for (uint k = 0u; k < WINDOW; ++k) {
-                const uint tile = first + k * PARTS;
-                while (tile < tiles && (uint)(seen[k] >> STATE_EPOCH_SHIFT) != epoch)
-                    seen[k] = posted(&states[tile * DIGITS + digit]);
-                total += tile < tiles ? (uint)seen[k] : 0u;
-                earlier += tile < own ? (uint)seen[k] : 0u;
-            }
-        }
-        atomic_add(&totals[digit], total);
-        atomic_add(&before[digit], earlier);
-    }
-}
-
-/// Sorts the `count` pairs of codes_a, whose ids are their positions, by `passes` digits, alternating between buffers a and b.
-/// Launched with one group per tile. All groups must be resident. `states` has a row of digits per tile, then a word per
-/// tile. No earlier pass may have used the epochs `epoch` to `epoch` + `passes` - 1.
+/// Sorts the `count` codes of `codes`, whose ids are their positions, by `passes` digits. Writes the ids to `ids_out` and, with
+/// `keeps_codes`, the codes to `codes_out`. `states` and `posts` are as in AtOnce, zero at first. Launched with one
+/// group per tile, at most MOST_TILES. All groups must be resident. No earlier pass may have used the epochs `epoch` to
+/// `epoch` + `passes` - 1.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once(
-    global Code* codes_a, global uint* ids_a, global Code* codes_b, global uint* ids_b,
-    volatile global ulong* states, const uint count, const uint passes, const uint epoch)
+    global const Code* codes, global Code* codes_out, global uint* ids_out,
+    volatile global ulong* states, volatile global ulong* posts, const uint count,
+    const uint passes, const uint epoch, const uint keeps_codes)
 {
-    local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
-    local uint starts[DIGITS];  // start of the digit's pairs in the sorted tile
-    local uint places
-        [DIGITS];  // first the number of pairs of each digit, then the start of the digit in the output minus starts[digit]
-    local uint before[DIGITS];  // number of pairs in earlier tiles
-    local uint team_sums[TEAMS];
-    const uint item = (uint)get_local_id(0), tile = (uint)get_group_id(0);
-    const uint tiles = (uint)get_num_groups(0);
-    const uint first = tile * TILE, here = min(TILE, count - first);
-    for (uint pass = 0u; pass < passes; ++pass) {
-        const bool is_even = pass % 2u == 0u;
-        const uint shift = DIGIT_BITS * pass, now = epoch + pass;
-        for (uint k = item; k < TEAMS * DIGITS; k += GROUP_SIZE)
-            words[k] = 0u;
-        for (OWN_DIGITS(digit))
-            places[digit] = before[digit] = 0u;
-        barrier(CLK_LOCAL_MEM_FENCE);
-        OwnPairs own;
-        load_pairs(&own, is_even ? codes_a : codes_b, is_even ? ids_a : ids_b, first, here,
-                   pass == 0u);
-        rank_pairs(&own, words + item / LANES * DIGITS, shift);
-        barrier(CLK_LOCAL_MEM_FENCE);
-        for (OWN_DIGITS(digit)) {
-            starts[digit] = sum_of_teams(words, digit);
-            announce(&states[tile * DIGITS + digit], now, starts[digit], false);
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-        read_tiles(places, before, states, tile, tiles, now);
-        scan_digits(starts, team_sums);
-        scan_digits(places, team_sums);
-        for (OWN_DIGITS(digit))
-            places[digit] += before[digit] - starts[digit];
-        barrier(CLK_LOCAL_MEM_FENCE);
-        pass_on(&own, words, starts, places, is_even ? codes_b : codes_a, is_even ? ids_b : ids_a,
-                here, shift);
-        if (pass + 1u < passes)
-            wait_for_all(states + tiles * DIGITS, tile, tiles, now);
-    }
+    local AtOnceScratch scratch;
+    const AtOnce all = {states, posts, count, passes, epoch, codes, codes_out, keeps_codes};
+    const uint first = (uint)get_group_id(0) * TILE, here = min(TILE, count - first);
+    OwnCodes own;
+    uint ids[KEYS_PER_ITEM];
+    load_codes(&own, codes, first, here);
+    load_ids(ids, ids_out, first, here, true);
+    sort_at_once_from(&own, ids, &scratch, all, ids_out);
 }

@@ -4,62 +4,95 @@
 #include <algorithm>
 #include <cassert>
 
+#include "builders/device_tree.h"
 #include "builders/parameters.h"
 #include "builders/stages/codes.h"
 #include "geometry/bits.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr uint digits = 1u << tile_digit_bits;
-constexpr uint most_passes = 64 / tile_digit_bits;
 
 /// Bits of the epoch in a look-back state (look_back.clh). Epoch 0 is that of cleared states.
 constexpr uint state_epoch_bits = 31;
 constexpr uint last_epoch = (1u << state_epoch_bits) - 1;
 
+/// In a posted pair (at_once.clh): bits of an id, and of the epoch above the id and the 24 bits of a code that are left.
+constexpr uint post_id_bits = 28;
+constexpr uint last_post_epoch = (1u << (64 - 24 - post_id_bits)) - 1;
+
+constexpr std::size_t bounds_words = sizeof(Bounds) / sizeof(float);  ///< SIDES of order_at_once.cl
+
 constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
 
-/// Fewest keys per work-item in one launch: with fewer, groups read more of each other's counts than they sort.
-constexpr uint fewest_keys = 4;
+/// Fewest keys per work-item in one launch: with fewer, there are more groups, which wait for each other.
+constexpr uint fewest_keys = 2;
+
+/// Most tiles whose counts each group reads itself (tile_sums.clh).
+constexpr uint few_tiles = 16;
 
 }  // namespace
 
-WaitingSort::WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
-                         bool at_once)
+WaitingSort::WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
+                         uint most_keys_at_once)
     : programs_(programs)
     , code_bits_(code_bits)
     , code_words_(code_words(code_bits))
     , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
-    , most_keys_(most_keys)
+    , keys_(keys)
+    , most_keys_at_once_(most_keys_at_once)
     , units_(programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
-    , most_tiles_at_once_(!at_once                               ? 0
-                          : programs.device().lets_groups_wait() ? units_
-                                                                 : 1)
+    , most_tiles_at_once_(programs.device().lets_groups_wait() ? units_ : 1)
 {
     assert(group_size >= 16 && group_size <= 512);
 }
 
-cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) const
+std::vector<Define> WaitingSort::defines(uint keys) const
 {
-    return programs_.kernel(path, name,
-                            {{"GROUP_SIZE", group_size_},
-                             {"KEYS_PER_ITEM", keys},
-                             {"CODE_WORDS", code_words_},
-                             {"DIGIT_BITS", tile_digit_bits},
-                             {"MOST_PASSES", most_passes},
-                             {"STATE_EPOCH_BITS", state_epoch_bits}},
-                            Optimise::on_gpus);
+    return {{"GROUP_SIZE", group_size_},         {"KEYS_PER_ITEM", keys},
+            {"DIGIT_BITS", tile_digit_bits},     {"MOST_PASSES", most_tile_passes},
+            {"MOST_TILES", most_tiles_at_once_}, {"FEW_TILES", few_tiles},
+            {"POST_ID_BITS", post_id_bits},      {"STATE_EPOCH_BITS", state_epoch_bits}};
 }
 
-void WaitingSort::plan(Arena& arena, std::size_t size)
+cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) const
+{
+    std::vector<Define> all = defines(keys);
+    all.push_back({"CODE_WORDS", code_words_});
+    return programs_.kernel(path, name, all, Optimise::on_gpus);
+}
+
+cl::Kernel WaitingSort::beginning_with(const char* path, const char* name,
+                                       std::span<const Define> more) const
+{
+    std::vector<Define> all = defines(tile_ / group_size_);
+    all.insert(all.end(), more.begin(), more.end());
+    return programs_.kernel(path, name, all, Optimise::on_gpus);
+}
+
+/// Returns how many of the last passes find an id and the digits of the code that are left in one word.
+uint WaitingSort::passes_of_words() const
+{
+    for (uint pass = 1; pass < passes_; ++pass)
+        if (code_bits_ - pass * tile_digit_bits + id_bits_ <= 32 * code_words_)
+            return passes_ - pass;
+    return 0;
+}
+
+void WaitingSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
 {
     epoch_ = 1;
     turn_ = 0;
-    is_at_once_ = most_tiles_at_once_ > 0 &&
-                  size <= std::size_t{most_tiles_at_once_} * group_size_ * most_keys_;
+    is_at_once_ = most_keys_at_once_ > 0 &&
+                  size <= std::size_t{most_tiles_at_once_} * group_size_ * most_keys_at_once_;
+    keeps_codes_ = keeps_codes;
     const auto count = static_cast<uint>(size);
+    size_ = count;
+    id_bits_ = ceil_log2(std::max(count, 1u));
+    word_passes_ = keeps_codes ? 0 : passes_of_words();
     if (is_at_once_)
         plan_at_once(arena, count);
     else
@@ -69,24 +102,26 @@ void WaitingSort::plan(Arena& arena, std::size_t size)
 void WaitingSort::plan_at_once(Arena& arena, uint count)
 {
     const uint needed = divided_up(count, group_size_ * most_tiles_at_once_);
-    const uint keys = std::min(most_keys_, std::max(fewest_keys, needed));
+    const uint keys = std::min(most_keys_at_once_, std::max(fewest_keys, needed));
     tile_ = group_size_ * keys;
     sort_ = kernel("builders/stages/sort/sort_at_once.cl", "sort_at_once", keys);
     counters_ = {};
-    states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (digits + 1), Use::scratch);
+    const std::size_t tiles = divided_up(count, tile_);
+    states_ = arena.take<ulong>(2 * (2 * tiles + 1) * digits + bounds_words * tiles, Use::scratch);
+    posts_ = arena.take<ulong>(2 * std::size_t{code_words_} * count, Use::scratch);
 }
 
-/// Uses the requested keys per work-item, or half as many if half of the compute units would otherwise have no tile.
 void WaitingSort::plan_sweeps(Arena& arena, uint count)
 {
-    const bool is_small = count < std::size_t{units_} * group_size_ * most_keys_ / 2;
-    const uint keys = is_small ? divided_up(most_keys_, 2u) : most_keys_;
-    tile_ = group_size_ * keys;
-    count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys);
-    sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys);
+    tile_ = group_size_ * keys_;
+    count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys_);
+    sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys_);
+    if (word_passes_ > 0)
+        sort_words_ = kernel("builders/stages/sort/sweep_words.cl", "sweep_words", keys_);
     for (Buffer<uint>& counters : counters_)
-        counters = arena.take<uint>(most_passes * (digits + 1), Use::scratch);
+        counters = arena.take<uint>(most_tile_passes * (digits + 1), Use::scratch);
     states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * digits, Use::scratch);
+    posts_ = {};
 }
 
 void WaitingSort::prepare(const cl::CommandQueue& queue)
@@ -94,41 +129,70 @@ void WaitingSort::prepare(const cl::CommandQueue& queue)
     if (states_.size() == 0)
         return;
     queue.enqueueFillBuffer(states_.cl(), cl_uint{0}, 0, states_.bytes());
+    if (posts_.size() > 0)
+        queue.enqueueFillBuffer(posts_.cl(), cl_uint{0}, 0, posts_.bytes());
     for (const Buffer<uint>& counters : counters_)
         if (counters.size() > 0)
             queue.enqueueFillBuffer(counters.cl(), cl_uint{0}, 0, counters.bytes());
     queue.finish();
 }
 
-void WaitingSort::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                          const Buffer<uint>& other, uint count, Queue& queue)
+/// Begins the next sort: clears what passes leave if their epochs have been used up.
+void WaitingSort::next_epochs(Queue& queue)
 {
-    if (epoch_ > last_epoch - passes_) {
-        queue.clear(states_.cl(), states_.bytes());
-        epoch_ = 1;
-    }
-    const bool is_odd = passes_ % 2 == 1;  // the last pass writes ids to `result`
-    const Buffer<uint>& ids_a = is_odd ? other : result;
-    const Buffer<uint>& ids_b = is_odd ? result : other;
+    const uint last = is_at_once_ ? last_post_epoch : last_epoch;
+    if (epoch_ <= last - passes_)
+        return;
+    queue.clear(states_.cl(), states_.bytes());
     if (is_at_once_)
-        sort_at_once(codes, ids_a, ids_b, count, queue);
-    else
-        sweep(codes, ids_a, ids_b, count, queue);
+        queue.clear(posts_.cl(), posts_.bytes());
+    epoch_ = 1;
+}
+
+void WaitingSort::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
+                          const Buffer<uint>& other, uint count, bool is_counted, Queue& queue)
+{
+    next_epochs(queue);
+    if (is_at_once_) {
+        set_arguments(sort_, codes[0], codes[1], result, states_, posts_, count, passes_, epoch_,
+                      keeps_codes_ ? 1u : 0u);
+        queue.launch(sort_, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
+                     bytes_at_once(count));
+    } else {
+        const bool is_odd = passes_ % 2 == 1;  // the last pass writes ids to `result`
+        sweep(codes, is_odd ? other : result, is_odd ? result : other, result, count, is_counted,
+              queue);
+    }
     epoch_ += passes_;
 }
 
-void WaitingSort::sort_at_once(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
-                               const Buffer<uint>& ids_b, uint count, Queue& queue)
+void WaitingSort::enqueue_beginning(cl::Kernel& kernel, cl_uint next,
+                                    const std::array<Buffer<uint>, 2>& codes,
+                                    const Buffer<uint>& result, std::int64_t moved_bytes,
+                                    Queue& queue)
 {
-    const std::int64_t id_bytes = std::int64_t{count} * sizeof(uint);
-    const std::int64_t code_bytes = id_bytes * code_words_;
-    set_arguments(sort_, codes[0], ids_a, codes[1], ids_b, states_, count, passes_, epoch_);
-    queue.launch(sort_, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
-                 passes_ * 2 * (code_bytes + id_bytes) - id_bytes);
+    assert(is_at_once_);
+    next_epochs(queue);
+    set_arguments_from(kernel, next, codes[0], codes[1], result, states_, posts_, size_, passes_,
+                       epoch_, keeps_codes_ ? 1u : 0u);
+    queue.launch(kernel, std::size_t{divided_up(size_, tile_)} * group_size_, group_size_,
+                 moved_bytes + bytes_at_once(size_));
+    epoch_ += passes_;
+}
+
+/// Returns the bytes that a sort in one launch moves: codes read, pairs posted and taken, ids and kept codes written.
+std::int64_t WaitingSort::bytes_at_once(uint count) const
+{
+    const std::int64_t words = std::int64_t{count} * code_words_;
+    const std::int64_t post_bytes = words * std::int64_t{sizeof(ulong)};
+    const std::int64_t code_bytes = words * std::int64_t{sizeof(uint)};
+    return (keeps_codes_ ? 3 : 1) * code_bytes + (passes_ - 1) * 2 * post_bytes +
+           std::int64_t{count} * std::int64_t{sizeof(uint)};
 }
 
 void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
-                        const Buffer<uint>& ids_b, uint count, Queue& queue)
+                        const Buffer<uint>& ids_b, const Buffer<uint>& result, uint count,
+                        bool is_counted, Queue& queue)
 {
     const uint tiles = divided_up(count, tile_);
     const Buffer<uint>& counters = counters_[turn_];
@@ -136,17 +200,29 @@ void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<u
     const std::int64_t id_bytes = std::int64_t{count} * sizeof(uint);
     const std::int64_t code_bytes = id_bytes * code_words_;
 
-    set_arguments(count_, codes[0], counters, count, code_bits_);
-    const std::size_t counting = units_ * counting_groups_per_unit;
-    queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_, group_size_,
-                 code_bytes);
-    for (uint pass = 0; pass < passes_; ++pass) {
+    if (!is_counted) {
+        set_arguments(count_, codes[0], counters, count, code_bits_);
+        const std::size_t counting = units_ * counting_groups_per_unit;
+        queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_, group_size_,
+                     code_bytes);
+    }
+    const std::size_t work_items = std::size_t{tiles} * group_size_;
+    const uint first_of_words = passes_ - word_passes_;
+    for (uint pass = 0; pass < first_of_words; ++pass) {
         const bool is_even = pass % 2 == 0;
+        const uint packs = word_passes_ > 0 && pass + 1 == first_of_words ? 1 : 0;
         set_arguments(sort_, codes[pass % 2], is_even ? ids_a : ids_b, codes[(pass + 1) % 2],
                       is_even ? ids_b : ids_a, counters, counters_[turn_], states_, count, pass,
-                      epoch_ + pass);
-        queue.launch(sort_, std::size_t{tiles} * group_size_, group_size_,
-                     2 * code_bytes + (pass == 0 ? 1 : 2) * id_bytes);
+                      epoch_ + pass, packs, id_bits_, pass + 1 == passes_ ? 1u : 0u);
+        queue.launch(sort_, work_items, group_size_,
+                     2 * code_bytes + ((pass == 0 ? 1 : 2) - packs) * id_bytes);
+    }
+    for (uint pass = first_of_words; pass < passes_; ++pass) {
+        const uint is_last = pass + 1 == passes_ ? 1 : 0;
+        set_arguments(sort_words_, codes[pass % 2], codes[(pass + 1) % 2], result, counters,
+                      states_, count, pass, epoch_ + pass, first_of_words, id_bits_, is_last);
+        queue.launch(sort_words_, work_items, group_size_,
+                     code_bytes + (is_last != 0 ? id_bytes : code_bytes));
     }
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "device/arena.h"
 #include "device/program.h"
@@ -11,51 +13,80 @@ namespace bvhbench {
 
 /// Bits per pass of the group sorts; a compile-time constant of the kernels.
 inline constexpr uint tile_digit_bits = 8;
+inline constexpr uint most_tile_passes = 64 / tile_digit_bits;
 
 /// A radix sort whose groups wait for each other, for devices that allow it.
 ///
 ///     sweep.cl           one launch per pass; groups wait for those of earlier tiles [Adinets2022]
-///     sort_at_once.cl    all passes in one launch with device-wide barriers in between. Each group has one tile, and all groups
+///     sort_at_once.cl    all passes in one launch, in which groups wait for the pairs themselves. Each group has one tile, and all groups
 ///                        must be resident at the same time, so there are at most as many as compute units (one group where
 ///                        groups cannot wait).
 class WaitingSort {
 public:
-    /// A group of `group_size` work-items, a power of two from 32 (from 16 if LANES is 1) to 512, takes `most_keys` pairs per
-    /// work-item, or fewer if there are few pairs. `at_once` allows a single launch for few pairs.
-    WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
-                bool at_once);
+    /// A group of `group_size` work-items, a power of two from 32 (from 16 if LANES is 1) to 512, takes `keys` pairs per
+    /// work-item. Pairs are sorted in a single launch if they are so few that no work-item takes more than `most_keys_at_once` of
+    /// them; never if that is 0.
+    WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
+                uint most_keys_at_once);
 
-    void plan(Arena& arena, std::size_t size);
+    /// Takes the buffers for `size` pairs. Without `keeps_codes`, pairs become words of a code's size as soon as an id and the digits
+    /// of the code that are left fit into one.
+    void plan(Arena& arena, std::size_t size, bool keeps_codes);
+
+    /// Returns a kernel for the planned sort at once that begins with what comes before the sort, compiled with `defines` in
+    /// addition.
+    cl::Kernel beginning_with(const char* path, const char* name,
+                              std::span<const Define> defines) const;
+
+    /// Enqueues such a kernel, whose arguments from `next` on are those of sort_at_once. `moved_bytes` are those of what comes before the
+    /// sort.
+    void enqueue_beginning(cl::Kernel& kernel, cl_uint next,
+                           const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
+                           std::int64_t moved_bytes, Queue& queue);
 
     /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Sorts the first `count` codes of codes[0], with ids 0, 1, 2, ... Codes end in codes[passes % 2], ids in `result`;
-    /// `other` is scratch. Does not block.
+    /// True if all passes of the planned sort are in one launch.
+    bool is_at_once() const { return is_at_once_; }
+    /// True if the planned sort can do without its count of digits.
+    bool takes_counts() const { return !is_at_once_; }
+    /// Where the counts of the next sort belong, a row of digits per pass; all zero before.
+    const Buffer<uint>& counters() const { return counters_[turn_]; }
+
+    /// Sorts the first `count` codes of codes[0], with ids 0, 1, 2, ... Codes, if kept, end in codes[passes % 2], in one launch in codes[1], ids in `result`;
+    /// `other` is scratch. With `is_counted`, `counters` has the counts of the digits already. Does not block.
     void enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                 const Buffer<uint>& other, uint count, Queue& queue);
+                 const Buffer<uint>& other, uint count, bool is_counted, Queue& queue);
 
 private:
+    std::vector<Define> defines(uint keys) const;
     cl::Kernel kernel(const char* path, const char* name, uint keys) const;
+    uint passes_of_words() const;
     void plan_at_once(Arena& arena, uint count);
     void plan_sweeps(Arena& arena, uint count);
-    void sort_at_once(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
-                      const Buffer<uint>& ids_b, uint count, Queue& queue);
+    void next_epochs(Queue& queue);
+    std::int64_t bytes_at_once(uint count) const;
     void sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
-               const Buffer<uint>& ids_b, uint count, Queue& queue);
+               const Buffer<uint>& ids_b, const Buffer<uint>& result, uint count, bool is_counted,
+               Queue& queue);
 
     Programs& programs_;
-    uint code_bits_, code_words_, passes_, group_size_, most_keys_, units_;
-    uint most_tiles_at_once_;  ///< 0: never in one launch.
-    bool is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
-    uint tile_ = 0;
-    cl::Kernel count_, sort_;
-    uint epoch_ = 1;  ///< Epoch of the next pass.
-    uint turn_ = 0;   ///< Index of the counters of the next sort.
+    uint code_bits_, code_words_, passes_, group_size_, keys_, most_keys_at_once_, units_;
+    uint most_tiles_at_once_;  ///< Groups that may wait for each other.
+    bool keeps_codes_ = true,
+         is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
+    uint tile_ = 0, size_ = 0;
+    cl::Kernel count_, sort_, sort_words_;
+    uint id_bits_ = 0;      ///< Of a word.
+    uint word_passes_ = 0;  ///< The last passes, which sort words.
+    uint epoch_ = 1;        ///< Epoch of the next pass.
+    uint turn_ = 0;         ///< Index of the counters of the next sort.
     std::array<Buffer<uint>, 2>
         counters_;  ///< sweep.cl only: a row of digits per pass, then the tiles taken in each pass.
     Buffer<ulong>
-        states_;  ///< A row of digits per tile (look_back.clh); sort_at_once.cl appends a word per tile.
+        states_;  ///< A row of digits per tile; in one launch twice those of tile_sums.clh, then those of order_at_once.cl.
+    Buffer<ulong> posts_;  ///< In one launch: pairs on their way between passes (at_once.clh).
 };
 
 }  // namespace bvhbench
