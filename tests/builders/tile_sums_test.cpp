@@ -52,9 +52,10 @@ protected:
     TileSums()
     {
         for (const char* name :
-             {"builders/stages/code.clh", "builders/stages/sort/peers.clh",
-              "builders/stages/sort/tile_digits.clh", "builders/stages/sort/look_back.clh",
-              "builders/stages/sort/tile_sums.clh", "device/handoff.clh"})
+             {"builders/stages/code.clh", "builders/stages/sort/digit_counts.clh",
+              "builders/stages/sort/peers.clh", "builders/stages/sort/tile_digits.clh",
+              "builders/stages/sort/look_back.clh", "builders/stages/sort/tile_sums.clh",
+              "device/handoff.clh"})
             folder.write(name, embedded_kernel(name).value());
         folder.write("parts.cl", kernel_text);
     }

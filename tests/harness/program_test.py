@@ -104,7 +104,7 @@ def test_build_writes_a_valid_result_and_the_tree_as_it_was_asked_for():
                  "--group-size", "64", "--items", "2", "--sah-inner", "2", "--sah-triangle", "0.5", "--json", "b.json", "--dump", "d.json",
                  says="oibvh-multi, groups of 64, 2 items, sorted leaves on soup:300")
     for words in ("verdict: agrees", "costs in sah_cost and epo: an inner node 2, a triangle 0.5",
-                  *(f"\n{stage} " for stage in ("bounds", "codes", "sort", "gather", "hierarchy", "all"))):
+                  *(f"\n{stage} " for stage in ("bounds", "codes", "sort", "hierarchy", "all"))):
         assert words in out, (words, out)
     cell = only("b.json")
     assert len(cell["samples"]) == 4 and cell["check"]["verdict"] == "agrees"

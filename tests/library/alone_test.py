@@ -68,8 +68,8 @@ def main() -> int:
         unasked = set(re.findall(r"^ +CMAKE_DISABLE_FIND_PACKAGE_(\w+)$", done.stderr, re.MULTILINE))
         assert unasked == set(OTHERS), set(OTHERS) - unasked
         here, whole = sources_of(alone / "compile_commands.json"), sources_of(pathlib.Path(BUILD) / "compile_commands.json")
-        # A build with CGAL has the first two files, a build without CGAL the last.
-        only_one = {f"collide/oracles/{name}.cpp" for name in ("exact_reference", "cgal_pairs", "no_exact_reference")}
+        # A build with CGAL has the first three files, a build without CGAL the last.
+        only_one = {f"collide/oracles/{name}.cpp" for name in ("exact_reference", "swept_reference", "cgal_pairs", "no_exact_reference")}
         assert set(here) - only_one == set(whole) - only_one, set(here) ^ set(whole)
         march = [path for path, command in here.items() if "-march" in command]
         assert not march, f"compiled for one kind of processor only: {march}"
