@@ -115,7 +115,7 @@ TEST_P(MediansContract, EqualTheHostsOnHardMeshes)
     }
 }
 
-/// So many leaves that work-items of `chunks`, each of which splits a subtree, run at the same time.
+/// There are enough leaves for several work-items of the form `chunks` to split their subtrees at the same time.
 TEST_P(MediansContract, EqualTheHostsOfMany)
 {
     expect_equal_to_host(
