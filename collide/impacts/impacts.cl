@@ -29,7 +29,7 @@ static inline float3 difference(global const Point* points, const uint to, const
     return (float3)(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-/// Returns the hull of two edges (a, b, b), or of a vertex (a, a, a) and a face, whose last corner is then there twice.
+/// Returns the hull of two edges (a, b, b), or of a vertex (a, a, a) and a face. The last corner of a face is given twice.
 static inline Hull hull_of(global const Point* points, const Face first, const Face second)
 {
     const bool edges = second.b == second.c;

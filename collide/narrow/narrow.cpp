@@ -180,7 +180,7 @@ void NarrowPhase::take_all()
                           std::vector<uint>(NARROW_COUNTERS));
 }
 
-/// Number of work-items for a list of pairs, of which those of the group form loop over what is left.
+/// Returns the number of work-items for a list of pairs. In the group form they loop over the list.
 std::size_t NarrowPhase::items_for(std::size_t pairs, std::size_t groups_per_unit) const
 {
     if (!by_groups())

@@ -20,7 +20,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep_words(
     OwnCodes own;
     uint to[KEYS_PER_ITEM];
     load_codes(&own, words_in, tile * TILE, here);
-    find_places(&own, &scratch, counters, states, tile, pass, shift, epoch);
+    find_places(&own, &scratch, counters, states, tile, pass, shift, epoch, is_last != 0u);
     sort_codes(&own, to, scratch.words, scratch.starts, scratch.places, shift);
     if (is_last == 0u) {
         write_codes(&own, to, words_out, here);

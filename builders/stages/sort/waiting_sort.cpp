@@ -213,7 +213,7 @@ void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<u
         const uint packs = word_passes_ > 0 && pass + 1 == first_of_words ? 1 : 0;
         set_arguments(sort_, codes[pass % 2], is_even ? ids_a : ids_b, codes[(pass + 1) % 2],
                       is_even ? ids_b : ids_a, counters, counters_[turn_], states_, count, pass,
-                      epoch_ + pass, packs, id_bits_);
+                      epoch_ + pass, packs, id_bits_, pass + 1 == passes_ ? 1u : 0u);
         queue.launch(sort_, work_items, group_size_,
                      2 * code_bytes + ((pass == 0 ? 1 : 2) - packs) * id_bytes);
     }

@@ -38,8 +38,7 @@ public:
     cl::Kernel beginning_with(const char* path, const char* name,
                               std::span<const Define> defines) const;
 
-    /// Enqueues such a kernel, whose arguments from `next` on are those of sort_at_once. `moved_bytes` are those of what comes before the
-    /// sort.
+    /// Enqueues such a kernel. Its arguments from `next` on are those of sort_at_once. `moved_bytes` is what it moves before the sort.
     void enqueue_beginning(cl::Kernel& kernel, cl_uint next,
                            const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
                            std::int64_t moved_bytes, Queue& queue);
@@ -54,8 +53,9 @@ public:
     /// Where the counts of the next sort belong, a row of digits per pass; all zero before.
     const Buffer<uint>& counters() const { return counters_[turn_]; }
 
-    /// Sorts the first `count` codes of codes[0], with ids 0, 1, 2, ... Codes, if kept, end in codes[passes % 2], in one launch in codes[1], ids in `result`;
-    /// `other` is scratch. With `is_counted`, `counters` has the counts of the digits already. Does not block.
+    /// Sorts the first `count` codes of codes[0], with ids 0, 1, 2, ... Ids end in `result`. Codes, if kept, end in codes[passes % 2],
+    /// or in codes[1] if all is one launch. `other` is scratch. With `is_counted`, `counters` has the counts of the digits already.
+    /// Does not block.
     void enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
                  const Buffer<uint>& other, uint count, bool is_counted, Queue& queue);
 
