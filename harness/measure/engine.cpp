@@ -6,6 +6,7 @@
 
 #include "harness/base/failure.h"
 #include "harness/session/race.h"
+#include "harness/session/sample_lock.h"
 #include "harness/session/sampler.h"
 #include "harness/session/watchdog.h"
 
@@ -173,7 +174,11 @@ void Engine::sample(std::span<Subject> subjects)
                          cell.samples, bytes_held(cell),
                          [this] { return session_.queue().wall_ns(); }});
     }
-    std::vector<Taken> taken = session_samples(session_, timed, plan_, order_);
+    std::vector<Taken> taken;
+    {
+        const SampleLock alone;
+        taken = session_samples(session_, timed, plan_, order_);
+    }
     for (std::size_t i = 0; i < ready.size(); ++i) {
         Cell& cell = ready[i]->cell;
         cell.samples = std::move(taken[i].samples);

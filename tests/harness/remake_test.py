@@ -47,7 +47,7 @@ class Remake(unittest.TestCase):
                 self.assertTrue((ROOT / "harness" / "experiments" / f"{name}.json").is_file(), unit)
 
     def test_makes_a_part_once(self) -> None:
-        first = self.quick("--part", "2", "--only", "rebuild")
+        first = self.quick("--part", "2", "--only", "rebuild", "--jobs", "2")
         self.assertEqual((first.returncode, first.stdout), (0, "rebuild: run rebuild --quick\n"), first.stderr)
         made = self.folder / "rebuild.json.xz"
         document = json.loads(lzma.decompress(made.read_bytes()))
