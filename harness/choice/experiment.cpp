@@ -18,7 +18,7 @@ constexpr std::string_view names[] = {
     "table1",   "table4",   "fig8",      "fig13",    "peers",        "quality",   "orders",
     "scaling",  "refit",    "equality",  "smoke",    "table2",       "table3",    "pairs",
     "rebuild",  "families", "agreement", "native",   "native-pairs", "yardstick", "wide",
-    "roofline", "swept",    "skips",     "builders", "rivals", "headlines"};
+    "roofline", "swept",    "skips",     "builders", "rivals",       "headlines"};
 
 /// Reads the keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
