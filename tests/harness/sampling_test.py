@@ -76,6 +76,9 @@ def test_each_kind_of_caches_has_cells_of_its_own() -> None:
             names = [stage["stage"] for stage in sample["stages"]]
             copies = {name: name in names for name in ("upload", "read_back")}
             is_frame, is_host = cell["operation"] == "collide", cell["sampling"]["caches"] == "host"
+            if cell["builder"]["name"] == "none":  # brute force on the host has nothing to copy
+                assert names == ["broad"] and sample["wall_ns"] >= sample["stages"][0]["wall_ns"]
+                continue
             assert copies == {"upload": is_host, "read_back": is_host and is_frame}, (cell["collider"], copies)
             if is_host:
                 assert names[0] == "upload" and (names[-1] == "read_back") == is_frame
@@ -87,13 +90,14 @@ def test_each_kind_of_caches_has_cells_of_its_own() -> None:
 
 
 def test_processes_are_told_apart_in_one_file() -> None:
-    for name in "abc":
-        expect(0, *BUILD, "--samples", "9", "--json", f"{name}.json", "--force")
-    expect(0, "merge", "--processes", "a.json", "b.json", "c.json", "-o", "joined.json", says="1 cell of 3 runs")
+    for process in range(3):
+        expect(0, *BUILD, "--samples", "9", "--json", f"process-{process}.json")
+    files = [f"process-{process}.json" for process in range(3)]
+    expect(0, "merge", "--processes", *files, "-o", "joined.json", says="1 cell of 3 runs")
     cell = only("joined.json")
     assert [sample["process"] for sample in cell["samples"]] == [0] * 9 + [1] * 9 + [2] * 9
     expect(0, "show", "joined.json", says="27 samples of 3 processes")
-    expect(2, "merge", "a.json", "b.json", "-o", "two.json", says="not the same of it")
+    expect(2, "merge", *files, "-o", "two.json", says="not the same of it")
 
 
 def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
