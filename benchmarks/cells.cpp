@@ -108,13 +108,13 @@ std::string Cells::sampled(benchmark::State& state, Subject& subject, const std:
 {
     Cell& cell = subject.cell;
     std::string failure = reason_of_failure([&] {
-        session_.empty_caches(plan_.scenes[scene_].sampling.cold);
+        session_.set_caches(plan_.scenes[scene_].sampling.caches.front());
         for (; cell.warm_up > 0; --cell.warm_up)
             subject.once();
     });
     if (failure.empty())
         failure = take_iterations(state, stage, subject.once);
-    session_.empty_caches(false);
+    session_.set_caches(Caches::hot);
     if (!failure.empty()) {
         session_.renew_queue();  // launches of the failed sample may be left in it
         return failure;

@@ -136,12 +136,12 @@ def sentence(found: Ranking) -> str:
 def of_cells(cells: Sequence[Cell]) -> str:
     """Returns the answer of a result file's cells as a line, or nothing where they give none: they must be several builders or
     pipelines over one scene, that answer one question, all with right answers."""
-    kinds = {(cell.operation, cell.raw.get("experiment"), cell.scene, bool(cell.swept), cell.starts_from_leaves,
+    kinds = {(cell.operation, cell.raw.get("experiment"), cell.caches, cell.scene, bool(cell.swept), cell.starts_from_leaves,
               *(dict(cell.collider_options).get(key, names.USUAL[key]) for key in QUESTION)) for cell in cells if cell.has_times}
     measured = [cell for cell in cells if cell.status == "measured"]
     if len(kinds) != 1 or not all(cell.checked for cell in measured):
         return ""
-    operation, _, _, is_swept, from_leaves, *_ = next(iter(kinds))
+    operation, _, _, _, is_swept, from_leaves, *_ = next(iter(kinds))
     is_ranked = operation in ("build", "collide") and not is_swept and not from_leaves
     if not is_ranked or len({cell.key("builder", "collider") for cell in measured}) < 2:
         return ""

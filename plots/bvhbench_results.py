@@ -47,7 +47,8 @@ def rows(run: results.Run, counters: bool) -> Iterator[dict[str, Any]]:
         for sample in cell.all_samples:
             for stage in sample["stages"]:
                 said = {key: stage[key] for key in SAMPLE if key in stage}
-                yield {**about, "order": sample["order"], "drifted": sample.get("drifted", False), **said,
+                process = {"process": sample["process"]} if "process" in sample else {}
+                yield {**about, **process, "order": sample["order"], "drifted": sample.get("drifted", False), **said,
                        "ns": elapsed_ns(stage)}
 
 

@@ -134,9 +134,27 @@ class Cell:
         return median(self.times_ns(stage))
 
     @property
+    def caches(self) -> str:
+        """Returns where samples find their data: "hot", "cold" or "host"."""
+        return self.raw.get("sampling", {}).get("caches", "hot")
+
+    def walls_ns(self) -> list[float]:
+        """Returns the times of whole samples on the host's clock, for the samples that statistics use; empty before format 1.11."""
+        return [sample["wall_ns"] for sample in counted(self.all_samples) if "wall_ns" in sample]
+
+    @property
     def wall_ns(self) -> float:
-        """Returns the median time of whole samples on the host's clock, or 0 before format 1.11."""
-        return median([sample["wall_ns"] for sample in counted(self.all_samples) if "wall_ns" in sample])
+        """Returns the median of walls_ns, or 0."""
+        return median(self.walls_ns())
+
+    @functools.cached_property
+    def processes(self) -> "list[Cell]":
+        """Returns a cell with the samples of each process, if they are of several (`merge --processes`); else this cell alone."""
+        if "processes" not in self.raw:
+            return [self]
+        samples = grouped(self.all_samples, lambda sample: sample["process"])
+        return [Cell({key: value for key, value in self.raw.items() if key != "processes"} | {"samples": samples[k]})
+                for k in sorted(samples)]
 
     @property
     def provenance(self) -> str:
@@ -190,11 +208,12 @@ class Cell:
         if self.operation == "accuracy":
             return f"{self.accuracy['axis']}, {self.accuracy['method']}"
         builder = names.in_full(self.raw["builder"])
+        caches = f", {names.CACHES[self.caches]}" if self.caches in names.CACHES else ""
         if self.operation == "collide":
             swept = f"{self.swept['pairs']} by " if self.swept else ""
             collider = names.in_full({"name": name, "options": collider_options})
-            return f"{swept}{collider}{'' if self.builder == 'none' else f' over {builder}'}"
-        return f"{builder}, refit" if self.operation == "refit" else builder
+            return f"{swept}{collider}{'' if self.builder == 'none' else f' over {builder}'}{caches}"
+        return f"{builder}{', refit' if self.operation == 'refit' else ''}{caches}"
 
     @property
     def label(self) -> str:

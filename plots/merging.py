@@ -9,6 +9,8 @@ from documents import line_of
 from output import WrongUsage
 
 FIRST_MINOR = 8  # minor format version that introduced `merged_from`
+FIRST_WITH_PROCESSES = 12
+WORST_FIRST = ("differs", "not_checked", "counted", "agrees")
 
 Json = dict[str, Any]
 
@@ -115,16 +117,56 @@ def collected(parts: list[Part], kind: str) -> tuple[list[Json], int]:
     return [cell for _, cell in seen.values()], repeated
 
 
-def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_commits: bool = False) -> Merged:
+def answers_of(cell: Json) -> dict[str, Any]:
+    """Returns what a cell is about and what it found, which must not vary between processes."""
+    return {key: value for key, value in cell.get("check", {}).items() if key.endswith("_hash")} | {
+        "content_hash": cell["scene"].get("content_hash"), "outside": cell.get("outside")}
+
+
+def joined(parts: list[Part]) -> tuple[list[Json], int]:
+    """Returns each cell once, with the samples of all parts, and 0. What was not measured in one part was not measured. Raises
+    WrongUsage if a part lacks a cell, is of several runs itself, or found something else."""
+    keyed_parts = [dict(keyed(part, "cells")) for part in parts]
+    for part, cells_of_part in zip(parts, keyed_parts):
+        if len(part.runs) > 1 or part.document.get("stress"):
+            raise WrongUsage(f"{part.origin} is not what one process of `run`, `build` or `collide` wrote")
+        for key in keyed_parts[0].keys() ^ cells_of_part.keys():
+            cell = keyed_parts[0].get(key) or cells_of_part[key]
+            raise WrongUsage(f"{parts[0].origin} and {part.origin} do not have the same cells: {called(cell)} is in one of them")
+    if len({name for part in parts for name in part.runs}) < max(2, len(parts)):
+        raise WrongUsage("--processes joins the files of at least two processes, each once")
+    return [join(parts, [cells_of_part[key] for cells_of_part in keyed_parts]) for key in keyed_parts[0]], 0
+
+
+def join(parts: list[Part], same: list[Json]) -> Json:
+    for cell in same:
+        if cell["status"] != "measured":
+            return cell
+    for part, cell in zip(parts, same):
+        if answers_of(cell) != answers_of(same[0]):
+            raise WrongUsage(f"{parts[0].origin} and {part.origin} do not agree on {called(cell)}: {answers_of(same[0])} and "
+                             f"{answers_of(cell)}")
+    whole = {**same[0], "processes": [cell["run"] for cell in same], "samples": [],
+             "check": min((cell["check"] for cell in same), key=lambda check: WORST_FIRST.index(check["verdict"]))}
+    first = 0  # place of the process's first sample
+    for process, cell in enumerate(same):
+        whole["samples"] += [{**sample, "order": first + sample["order"], "process": process} for sample in cell["samples"]]
+        first += 1 + max((sample["order"] for sample in cell["samples"]), default=0)
+    return whole
+
+
+def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_commits: bool = False,
+          processes: bool = False) -> Merged:
     """Merges the cells of all parts, in their order, into one result file. `run` is the first part's; `merged_from` describes
     each run, and a cell's `run` names its run. A part is a name for messages and a checked result file.
 
     Cells are equal if builder or pipeline, options, frame and device are equal. Raises WrongUsage if equal cells have different
-    contents, or if format, device or commit of the parts differ and no option permits it."""
+    contents, or if format, device or commit of the parts differ and no option permits it. With `processes` each part has the same
+    cells, and a cell gets the samples of all."""
     files = [part_of(origin, document) for origin, document in parts]
     require_alike(files, other_devices, other_commits)
-    (measured, repeated), (stress, repeated_stress) = collected(files, "cells"), collected(files, "stress")
-    used = {cell["run"] for cell in measured + stress}
+    (measured, repeated), (stress, repeated_stress) = joined(files) if processes else collected(files, "cells"), collected(files, "stress")
+    used = {name for cell in measured + stress for name in cell.get("processes", [cell["run"]])}
     sources: dict[str, Json] = {}
     for part in files:
         for name, source in part.runs.items():
@@ -133,6 +175,6 @@ def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_
     first = files[0].document
     text = document_text(first["run"], [line_of(cell) for cell in measured], [line_of(cell) for cell in stress],
                          [line_of(source) for source in sources.values()],
-                         f"1.{max(FIRST_MINOR, int(first['format'].split('.')[1]))}")
+                         f"1.{max(FIRST_WITH_PROCESSES if processes else FIRST_MINOR, int(first['format'].split('.')[1]))}")
     return Merged(text, len(measured) + len(stress), len(sources), repeated + repeated_stress,
                   any(cell.get("check", {}).get("verdict") == "differs" for cell in measured))

@@ -60,7 +60,8 @@ def asked_of(cell: Cell) -> str:
     """Returns the name of what was asked for, equal on every device: "bvtt (jump 2) over oibvh-multi", "oibvh-multi, kd"."""
     if cell.operation != "collide":
         return cell.asked
-    return names.pipeline(cell.collider or "", dict(cell.collider_options), cell.builder, dict(cell.options))
+    caches = f", {names.CACHES[cell.caches]}" if cell.caches in names.CACHES else ""
+    return names.pipeline(cell.collider or "", dict(cell.collider_options), cell.builder, dict(cell.options)) + caches
 
 
 def us(cell: Cell, *stages: str) -> float:

@@ -14,7 +14,7 @@ from cells import Cell, counted, elapsed_ns, grouped, median, whole_ns
 from results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
-OF_QUERY = ("near", "ropes", "broad", "copy", "narrow")  # stages that follow the tree
+OF_QUERY = ("near", "ropes", "broad", "copy", "narrow", "read_back")  # stages that follow the tree
 FEWEST = 3  # samples from which intervals are compared
 LEAST = 0.005  # differences below this are none: the best of two runs differ by more (docs/measuring.md, A race)
 FAR = 3  # ratio from which fewer samples are enough
@@ -142,12 +142,19 @@ class Frame:
 
 def method(cell: Cell) -> tuple[Hashable, ...]:
     """Returns what is ranked: a builder or pipeline, or a method along an axis of accuracy."""
-    return *cell.key("operation", "builder", "collider"), cell.accuracy.get("method")
+    return *cell.key("operation", "builder", "collider", "caches"), cell.accuracy.get("method")
+
+
+def interval_of(cell: Cell, objective: str) -> tuple[float, float, float]:
+    """Returns the median and the ends of its interval, which also holds the medians of all processes that samples are from."""
+    values = values_of(cell.samples, objective)
+    ends = [*ends_of(values), *(median(values_of(one.samples, objective)) for one in cell.processes)]
+    return median(values), min(ends), max(ends)
 
 
 def margins(row: Row, objective: str) -> tuple[float, float, float]:
     """Returns the sum of the medians of the row's cells, and by how much its interval goes below and above it."""
-    parts = [(median(values), *ends_of(values)) for values in (values_of(cell.samples, objective) for cell in row.cells)]
+    parts = [interval_of(cell, objective) for cell in row.cells]
     return (sum(middle for middle, _, _ in parts), math.hypot(*(middle - low for middle, low, _ in parts)),
             math.hypot(*(high - middle for middle, _, high in parts)))
 

@@ -42,12 +42,12 @@ def who(cell: Cell) -> str:
 
 
 def asked(cell: Cell) -> str:
-    """Returns what a query was asked for, and whether caches were emptied. Cells that were asked for different things
+    """Returns what a query was asked for, and where samples found their data. Cells that were asked for different things
     must not be compared."""
-    cold = ["caches emptied before each sample"] if cell.raw.get("sampling", {}).get("caches") == "cold" else []
+    caches = [names.CACHES[cell.caches]] if cell.caches in names.CACHES else []
     swept = [cell.swept["pairs"]] if cell.swept else []
     if not cell.collider or cell.accuracy:
-        return ", ".join(swept + cold)
+        return ", ".join(swept + caches)
     options = dict(cell.collider_options)
     words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs", *swept]
     if options.get("adjacent") == "drop":
@@ -55,7 +55,7 @@ def asked(cell: Cell) -> str:
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")
     if narrow != "none":
         words.append(f"contacts ({narrow})")
-    return ", ".join(words + cold)
+    return ", ".join(words + caches)
 
 
 def scene_name(cell: Cell) -> str:

@@ -158,9 +158,14 @@ def load(path: pathlib.Path) -> Run:
         raise Refused(f"{path}: merged from several devices, which no figure tells apart: {'; '.join(devices)}")
     for hook, value in document["run"].get("test_hooks", {}).items():
         raise Refused(f"{path}: made under the test hook {hook}={value}: it is no result")
-    cells = [failed_if_wrong(cell) for cell in document["cells"]]
+    cells = [failed_if_wrong(cell) for cell in hot_of(document["cells"])]
     return Run(path, document, [cell_of(path, cell) for cell in cells if cell["status"] == "measured"],
                [Cell(cell) for cell in cells if cell["status"] != "measured"])
+
+
+def hot_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Returns the cells that a figure shows: those with hot caches, if there are any."""
+    return [cell for cell in cells if cell.get("sampling", {}).get("caches", "hot") == "hot"] or cells
 
 
 def everything(path: str | os.PathLike[str]) -> Run:

@@ -139,9 +139,8 @@ void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts
         one.cell.collider = method.collider;
         engine.settle(one, [&] { method.settle(one); });
     }
-    engine.sample(subjects);
-    for (Subject& one : subjects)
-        run.add(std::move(one.cell));
+    for (Cell& cell : engine.sample(subjects))
+        run.add(std::move(cell));
 }
 
 }  // namespace bvhbench

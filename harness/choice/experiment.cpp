@@ -18,7 +18,7 @@ constexpr std::string_view names[] = {
     "table1",   "table4",   "fig8",      "fig13",    "peers",        "quality",   "orders",
     "scaling",  "refit",    "equality",  "smoke",    "table2",       "table3",    "pairs",
     "rebuild",  "families", "agreement", "native",   "native-pairs", "yardstick", "wide",
-    "roofline", "swept",    "skips",     "builders", "rivals"};
+    "roofline", "swept",    "skips",     "builders", "rivals",       "headlines"};
 
 /// Reads the keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
@@ -48,10 +48,13 @@ SamplingRules sampling_of(const Json& json)
     read_number(json, "max_samples", 2, most_samples, rules.max_samples);
     read_number(json, "time_budget_s", 0, 1e6, rules.time_budget_s);
     if (json.contains("caches")) {
-        const std::string caches = text_at(json, "caches");
-        if (caches != "hot" && caches != "cold")
-            throw BadUsage("'caches' is hot or cold, not '" + caches + "'");
-        rules.cold = caches == "cold";
+        const Json& caches = json["caches"];
+        rules.caches.clear();
+        for (const Json& one : caches.is_array() ? caches : Json::array({caches}))
+            rules.caches.push_back(
+                caches_called(one.is_string() ? one.get<std::string>() : one.dump()));
+        if (rules.caches.empty())
+            throw BadUsage("'caches' is an empty list");
     }
     if (json.contains("race"))
         rules.race = race_called(text_at(json, "race"));

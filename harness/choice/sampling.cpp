@@ -10,6 +10,21 @@ namespace bvhbench {
 
 constexpr std::array<std::string_view, 4> races = {"", "whole", "query", "memory"};
 
+constexpr std::array<std::string_view, 3> caches_names = {"hot", "cold", "host"};
+
+std::string_view caches_name(Caches caches)
+{
+    return caches_names[static_cast<std::size_t>(caches)];
+}
+
+Caches caches_called(std::string_view name)
+{
+    const auto found = std::find(caches_names.begin(), caches_names.end(), name);
+    if (found == caches_names.end())
+        throw BadUsage("caches are hot, cold or host, not '" + std::string(name) + "'");
+    return static_cast<Caches>(found - caches_names.begin());
+}
+
 std::string_view race_name(Race race) { return races[static_cast<std::size_t>(race)]; }
 
 Race race_called(std::string_view name)
@@ -29,7 +44,10 @@ void SamplingWords::apply(SamplingRules& rules) const
     rules.max_samples = max_samples.value_or(rules.max_samples);
     rules.calibrate_every = calibrate_every.value_or(rules.calibrate_every);
     rules.race = race.empty() ? rules.race : race_called(race);
-    rules.cold = rules.cold || cold;
+    if (!caches.empty())
+        rules.caches.clear();
+    for (const std::string& name : caches)
+        rules.caches.push_back(caches_called(name));
     if (rules.until == 0 && (min_samples || max_samples || time_budget_s))
         throw BadUsage(
             "--min-samples, --max-samples and --time-budget bound a search that --until begins; "
@@ -42,6 +60,12 @@ void check_rules(const SamplingRules& rules)
     if (rules.min_samples > rules.max_samples)
         throw BadUsage("at least " + std::to_string(rules.min_samples) + " samples and at most " +
                        std::to_string(rules.max_samples) + " cannot be: see --min-samples");
+    for (const Caches one : rules.caches)
+        if (std::count(rules.caches.begin(), rules.caches.end(), one) > 1)
+            throw BadUsage("--caches: " + std::string(caches_name(one)) + " is there twice");
+    if (rules.race != Race::none &&
+        (rules.caches.size() > 1 || rules.caches.front() == Caches::host))
+        throw BadUsage("--caches: a race is with hot or with cold ones");
 }
 
 }  // namespace bvhbench

@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace bvhbench {
 
@@ -23,6 +25,19 @@ std::string_view race_name(Race race);
 /// Returns the race of that name. Throws BadUsage.
 Race race_called(std::string_view name);
 
+/// Where a sample finds its data.
+enum class Caches {
+    hot,   ///< in the caches, as the previous sample left them
+    cold,  ///< in the device's memory: the caches are emptied before
+    host,  ///< in the host's memory: it copies the vertices to the device and its answer back
+};
+
+/// Returns the name in experiments, result files and on the command line: "hot".
+std::string_view caches_name(Caches caches);
+
+/// Returns those of that name. Throws BadUsage.
+Caches caches_called(std::string_view name);
+
 /// When sampling of a cell stops, and under which conditions samples are taken.
 struct SamplingRules {
     /// If not 0, sampling stops when the interquartile range is at most this fraction of the median.
@@ -31,7 +46,8 @@ struct SamplingRules {
     int max_samples = 1000;
     double time_budget_s = 60;  ///< for all cells sampled together, without warm-up
     Race race = Race::none;     ///< whether a cell that is beaten by another stops
-    bool cold = false;          ///< whether caches are emptied before each sample
+    /// Each has cells of its own, sampled one after another by one process.
+    std::vector<Caches> caches = {Caches::hot};
     int calibrate_every = 16;   ///< samples between two calibration runs; 0: no calibration
     double drift_limit = 0.25;  ///< allowed relative deviation of a calibration from the median
 
@@ -72,7 +88,7 @@ struct SamplingWords {
     std::optional<double> until, time_budget_s, drift_limit;
     std::optional<int> min_samples, max_samples, calibrate_every;
     std::string race;
-    bool cold = false;
+    std::vector<std::string> caches;
 
     /// Overwrites `rules` with the options that are set. Throws BadUsage if the options or the result contradict each other.
     void apply(SamplingRules& rules) const;

@@ -116,7 +116,7 @@ extern const CommandEntry build_command = {
      {"bvhbench build --builder karras,oibvh-single --order morton30,hilbert30 --scene bunny.ply "
       "--json mine.json",
       "four cells over a mesh file, sampled in turn, samples kept"},
-     {"bvhbench build --builder oibvh-multi --scene bunny --until 2% --cold",
+     {"bvhbench build --builder oibvh-multi --scene bunny --until 2% --caches cold",
       "until steady, from empty caches"}},
     "docs/measuring.md",
     make_command<Build>};

@@ -121,7 +121,11 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
     app.add_option("--race", sampling.race,
                    "whole, query or memory: cells of a scene or frame race for the shortest whole "
                    "or query or the least memory; one that is beaten gets no more samples");
-    app.add_flag("--cold", sampling.cold, "empty the device's caches before each sample");
+    app.add_option("--caches", sampling.caches,
+                   "hot, cold or host: where a sample finds its data, in caches, in the device's "
+                   "memory, or in the host's, with both copies timed; several, as hot,cold, are "
+                   "cells of their own; hot")
+        ->delimiter(',');
     app.add_option("--calibrate-every", sampling.calibrate_every,
                    "samples between two looks at how fast the device is; 0: none; 16")
         ->check(CLI::Range(0, most_samples));

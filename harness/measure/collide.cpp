@@ -33,7 +33,8 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     if (finds_nothing)
         throw BadUsage("scene '" + task.scene +
                        "' is one object, and there are no pairs between objects");
-    if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
+    if (passes &&
+        passes((frames.end - frames.first) * task.pipelines.size() * task.sampling.caches.size()))
         return;
     Input input = upload_frame(session, scene, frames.first);
     Contest contest(task.sampling.race);

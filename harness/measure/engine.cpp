@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "harness/base/failure.h"
 #include "harness/session/race.h"
@@ -21,17 +22,17 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Samples on the session's device. Runs the calibration between samples if there are enough of them, and empties the caches
-/// before each if the plan says so. Throws as take_samples does.
+/// Samples on the session's device, with such caches. Runs the calibration between samples if there are enough of them. Throws as
+/// take_samples does.
 std::vector<Taken> session_samples(Session& session, std::span<const Timed> cells,
-                                   const SamplingPlan& plan, int& order)
+                                   const SamplingPlan& plan, Caches caches, int& order)
 {
-    const std::string failure = reason_of_failure([&] { session.empty_caches(plan.rules.cold); });
+    const std::string failure = reason_of_failure([&] { session.set_caches(caches); });
     if (!failure.empty())
         return std::vector<Taken>(cells.size(), Taken{{}, failure, Stopped::failure});
     struct Hot {  // work outside the samples runs with warm caches
         Session& session;
-        ~Hot() { session.empty_caches(false); }
+        ~Hot() { session.set_caches(Caches::hot); }
     } const hot{session};
     std::function<std::int64_t()> calibrate;
     if (plan.rules.until > 0 || plan.samples >= fewest_calibrated)
@@ -98,7 +99,7 @@ bool Engine::look(Subject& subject, Contest& contest)
         return false;
     }
     subject.once = {};
-    cell.sampling = facts_of(Stopped::beaten);
+    cell.sampling = facts_of(Stopped::beaten, plan_.rules.caches.front());
     return true;
 }
 
@@ -108,10 +109,10 @@ std::vector<StageTime> Engine::run_once(Subject& subject)
     const watchdog::Hand hand(subject.number);
     std::vector<StageTime> stages;
     std::string failure = reason_of_failure([&] {
-        session_.empty_caches(plan_.rules.cold);
+        session_.set_caches(plan_.rules.caches.front());
         stages = subject.once();
     });
-    session_.empty_caches(false);
+    session_.set_caches(Caches::hot);
     if (!failure.empty())
         refuse(subject, Cell::Status::failed, std::move(failure));
     return stages;
@@ -131,10 +132,27 @@ double Engine::slower_now()
     return ahead_ns_ > 0 ? now / ahead_ns_ : 1;
 }
 
-SamplingFacts Engine::facts_of(Stopped stopped) const
+SamplingFacts Engine::facts_of(Stopped stopped, Caches caches) const
 {
     const SamplingRules& rules = plan_.rules;
-    return {.stopped = stopped, .until = rules.until, .race = rules.race, .cold = rules.cold};
+    return {.stopped = stopped, .until = rules.until, .race = rules.race, .caches = caches};
+}
+
+/// Runs a subject once between its copies, which are stages on the host.
+std::vector<StageTime> Engine::from_host(Subject& subject)
+{
+    Queue& queue = session_.queue();
+    std::vector<StageTime> stages;
+    wall_ns_ = host_ns([&] {
+        if (subject.upload)
+            queue.on_host("upload", subject.upload);
+        stages = subject.once();
+        if (!subject.read_back)
+            return;
+        queue.on_host("read_back", subject.read_back);
+        std::ranges::move(queue.finish(), std::back_inserter(stages));
+    });
+    return stages;
 }
 
 /// Notes that `rounds` have been sampled in `sampling_s`, after `before_s` of preparation. All rounds take as long as the average.
@@ -150,44 +168,74 @@ void Engine::tell(int rounds, double before_s, double sampling_s) const
           (before_s + sampling_s) / (before_s + all_s));
 }
 
-void Engine::sample(std::span<Subject> subjects)
+std::vector<Cell> Engine::sample(std::span<Subject> subjects)
 {
+    const std::vector<Caches>& kinds = plan_.rules.caches;
+    std::vector<std::vector<Cell>> sampled(kinds.size(), std::vector<Cell>(subjects.size()));
     if (other_sampler)
-        return other_sampler(subjects);
+        other_sampler(subjects);
+    for (std::size_t kind = 0; kind < kinds.size() && !other_sampler; ++kind)
+        sample(subjects, kinds[kind], sampled[kind]);
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+        Subject& one = subjects[i];
+        const bool was_sampled = one.is_ready() && !other_sampler;
+        if (was_sampled && one.judge_again && one.cell.sampling.stopped != Stopped::beaten)
+            if (std::string failure = reason_of_failure(one.judge_again); !failure.empty())
+                refuse(one, Cell::Status::failed, std::move(failure));
+        for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+            Cell& cell = cells.emplace_back(one.cell);
+            if (!was_sampled || cell.status != Cell::Status::measured)
+                continue;
+            cell.samples = std::move(sampled[kind][i].samples);
+            cell.sampling = sampled[kind][i].sampling;
+            if (kinds[kind] == Caches::host && !one.no_copies.empty()) {
+                cell.status = Cell::Status::skipped;
+                cell.reason = one.no_copies;
+            }
+        }
+    }
+    return cells;
+}
+
+/// Samples with caches of one kind, and writes samples and how they were taken to `cells`.
+void Engine::sample(std::span<Subject> subjects, Caches caches, std::span<Cell> cells)
+{
     const double before_s = seconds_since(start_);
     if (note_)
         plan_.after_round = [this, before_s](int rounds) {
             tell(rounds, before_s, seconds_since(start_) - before_s);
         };
     std::vector<Timed> timed;
-    std::vector<Subject*> ready;
-    for (Subject& one : subjects) {
-        if (!one.is_ready())
+    std::vector<std::size_t> ready;
+    const bool on_host = caches == Caches::host;
+    for (std::size_t i = 0; i < subjects.size(); ++i) {
+        Subject& one = subjects[i];
+        if (!one.is_ready() || (on_host && !one.no_copies.empty()))
             continue;
-        ready.push_back(&one);
+        ready.push_back(i);
         const Cell& cell = one.cell;
-        timed.push_back({cell.collider.name.empty() ? cell.builder.name : cell.collider.name,
-                         [&one] {
-                             const watchdog::Hand hand(one.number);
-                             return one.once();
-                         },
-                         cell.samples, bytes_held(cell),
-                         [this] { return session_.queue().wall_ns(); }});
+        timed.push_back(
+            {cell.collider.name.empty() ? cell.builder.name : cell.collider.name,
+             [this, &one, on_host] {
+                 const watchdog::Hand hand(one.number);
+                 return on_host ? from_host(one) : one.once();
+             },
+             cell.samples, bytes_held(cell),
+             [this, on_host] { return on_host ? wall_ns_ : session_.queue().wall_ns(); }});
     }
     std::vector<Taken> taken;
     {
         const SampleLock alone;
-        taken = session_samples(session_, timed, plan_, order_);
+        taken = session_samples(session_, timed, plan_, caches, order_);
     }
-    for (std::size_t i = 0; i < ready.size(); ++i) {
-        Cell& cell = ready[i]->cell;
-        cell.samples = std::move(taken[i].samples);
-        cell.sampling = facts_of(taken[i].stopped);
-        std::string failure = std::move(taken[i].failure);
-        if (failure.empty() && ready[i]->judge_again && taken[i].stopped != Stopped::beaten)
-            failure = reason_of_failure(ready[i]->judge_again);
-        if (!failure.empty())
-            refuse(*ready[i], Cell::Status::failed, std::move(failure));
+    for (std::size_t k = 0; k < ready.size(); ++k) {
+        Subject& one = subjects[ready[k]];
+        Cell& cell = cells[ready[k]];
+        cell.samples = std::move(taken[k].samples);
+        cell.sampling = one.cell.sampling = facts_of(taken[k].stopped, caches);
+        if (!taken[k].failure.empty())
+            refuse(one, Cell::Status::failed, std::move(taken[k].failure));
     }
 }
 

@@ -25,7 +25,10 @@ struct Subject {
     /// Runs one sample and returns its stages; empty if there is nothing to time.
     std::function<std::vector<StageTime>()> once = {};
     std::function<void()> judge_again = {};  ///< judges the result of the last sample; may be empty
-    std::vector<StageTime> settled = {};     ///< stages of the last run before the samples
+    /// For samples that begin on the host: copy the vertices to the device, and the answer to the host. Empty where nothing is copied.
+    std::function<void()> upload = {}, read_back = {};
+    std::string no_copies = {};  ///< why its samples cannot begin on the host; empty if they can
+    std::vector<StageTime> settled = {};  ///< stages of the last run before the samples
 
     bool is_ready() const
     {
@@ -33,6 +36,10 @@ struct Subject {
                cell.check.verdict != Check::Verdict::differs;
     }
 };
+
+/// Why no sample of a method from outside begins on the host.
+inline constexpr const char* no_copies_of_outside =
+    "a method from outside gets its vertices through a file, which is no upload of its own";
 
 /// Runs `work` and returns its duration in nanoseconds of the host's clock.
 std::int64_t host_ns(const std::function<void()>& work);
@@ -53,8 +60,9 @@ public:
     /// further. If only the sample is, takes a second one.
     bool look(Subject& subject, Contest& contest);
 
-    /// Samples all subjects that are ready, interleaved, and judges each again, except those that lost a race.
-    void sample(std::span<Subject> subjects);
+    /// Samples all subjects that are ready, interleaved, with caches of each kind that the plan names, and judges each again, except
+    /// those that lost a race. Returns a cell for each subject and kind of caches; one that fails once has failed with all.
+    std::vector<Cell> sample(std::span<Subject> subjects);
 
     /// If set, sample() calls this instead, for a program with a sampler of its own (benchmarks/).
     static inline std::function<void(std::span<Subject>)> other_sampler = {};
@@ -65,7 +73,9 @@ public:
     void refuse(Subject& subject, Cell::Status status, std::string reason);
 
 private:
-    SamplingFacts facts_of(Stopped stopped) const;
+    void sample(std::span<Subject> subjects, Caches caches, std::span<Cell> cells);
+    std::vector<StageTime> from_host(Subject& subject);
+    SamplingFacts facts_of(Stopped stopped, Caches caches) const;
     std::vector<StageTime> run_once(Subject& subject);
     double slower_now();
     void tell(int rounds, double before_s, double sampling_s) const;
@@ -77,6 +87,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Subject* ahead_ = nullptr;  ///< the best of those that were looked at
     double ahead_ns_ = 0;       ///< its least time
+    std::int64_t wall_ns_ = 0;  ///< of the last sample that began on the host
 };
 
 }  // namespace bvhbench

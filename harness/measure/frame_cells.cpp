@@ -240,6 +240,12 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             const watchdog::Watch watch;
             return one.pipeline->once(input);
         };
+        if (find_collider(one.choice.collider.name).outside != nullptr)
+            subject.no_copies = no_copies_of_outside;
+        if (one.pipeline != nullptr && one.pipeline->is_on_device()) {
+            subject.upload = [&] { one.pipeline->upload(input); };
+            subject.read_back = [&] { one.pipeline->read_back(); };
+        }
         // Another pipeline may have used the same builder's tree since the last sample, so the frame runs once more.
         subject.judge_again = [&] {
             one.pipeline->once(input);
@@ -250,13 +256,10 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             one.pipeline.reset();  // it is far behind; frees its memory
     }
     oracle.wait();  // needed even if no pipeline has asked the oracle
-    engine.sample(subjects);
-    std::vector<Cell> cells;
+    std::vector<Cell> cells = engine.sample(subjects);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        Cell& cell = subjects[k].cell;
-        all[k].status = cell.status;
-        all[k].reason = cell.reason;
-        cells.push_back(std::move(cell));
+        all[k].status = subjects[k].cell.status;
+        all[k].reason = subjects[k].cell.reason;
     }
     frame.contest.end_frame(cells);
     for (std::size_t k = 0; k < all.size(); ++k)

@@ -55,4 +55,9 @@ void Frames::upload(Session& session, bool by_objects)
         before_ = upload_frame(session, scene_, frame_ - 1, by_objects);
 }
 
+void Frames::upload_points(Session& session)
+{
+    now_.device_points.upload(session.queue().cl(), now_.points);
+}
+
 }  // namespace bvhbench

@@ -31,6 +31,9 @@ public:
     /// now() and before() return stay valid from now on.
     void upload(Session& session, bool by_objects = false);
 
+    /// Copies the points of that frame to the device once more. Waits.
+    void upload_points(Session& session);
+
     const Input& now() const { return now_; }        ///< frame that cells are about
     const Input& before() const { return before_; }  ///< frame that trees are refitted from
 

@@ -48,8 +48,12 @@ public:
     std::vector<float> impact_times() const;
     std::map<std::string, double> counters() const;
 
-    /// Host times, in ns, of what no stage holds: `upload_ns` copies the frame's points to the device, `read_back_ns` copies the
-    /// answer to the host, if it has room for that; each the median of up to five. Empty if no part of the pipeline runs on the device.
+    bool is_on_device() const { return !collider_->is_on_host() || narrow_; }  ///< at least in part
+    void upload(const Input& input) const;  ///< copies the frame's points to the device; waits
+    void read_back() const;                 ///< copies the answer into new memory of the host
+
+    /// Host times, in ns, of what no stage of a sample on the device holds: `upload_ns` and, if the host has room for the answer,
+    /// `read_back_ns`; each the median of up to five. Empty if no part of the pipeline runs on the device.
     std::map<std::string, double> transfers(const Input& input) const;
 
     /// Pairs in device memory, as many as counters() has. Requires has_pairs(), and a frame with triangles to query.

@@ -14,9 +14,19 @@ constexpr std::int64_t most_copying_ns = 200'000'000;  ///< after which a copy i
 
 }  // namespace
 
+void Pipeline::upload(const Input& input) const
+{
+    const cl::CommandQueue& queue = session_.queue().cl();
+    Buffer<Point> points = input.device_points, end_points = input.device_end_points;
+    points.upload(queue, input.points);
+    end_points.upload(queue, input.end_points);
+}
+
+void Pipeline::read_back() const { has_contacts() ? contacts() : pairs(); }
+
 std::map<std::string, double> Pipeline::transfers(const Input& input) const
 {
-    if (collider_->is_on_host() && !narrow_)
+    if (!is_on_device())
         return {};
     const auto median_ns = [](const std::function<void()>& copy) {
         copy();  // the first one may touch new memory
@@ -27,15 +37,10 @@ std::map<std::string, double> Pipeline::transfers(const Input& input) const
         std::ranges::sort(times);
         return static_cast<double>(times[times.size() / 2]);
     };
-    const cl::CommandQueue& queue = session_.queue().cl();
-    Buffer<Point> points = input.device_points, end_points = input.device_end_points;
-    std::map<std::string, double> times = {{"upload_ns", median_ns([&] {
-                                                points.upload(queue, input.points);
-                                                end_points.upload(queue, input.end_points);
-                                            })}};
+    std::map<std::string, double> times = {{"upload_ns", median_ns([&] { upload(input); })}};
     const auto answer = counters().at(has_contacts() ? "contacts_count" : "pairs_count");
     if (answer * sizeof(Pair) < static_cast<double>(host_memory_left()))
-        times["read_back_ns"] = median_ns([&] { has_contacts() ? contacts() : pairs(); });
+        times["read_back_ns"] = median_ns([&] { read_back(); });
     return times;
 }
 

@@ -216,7 +216,8 @@ void Run::scene(const Experiment& experiment, const std::string& name,
                 std::span<const BuilderChoice> builders, Progress& progress)
 {
     const std::string number = std::to_string(scenes_++) + '/';
-    if (results_.pass(builders.size() * experiment.operations.size()))
+    if (results_.pass(builders.size() * experiment.operations.size() *
+                      experiment.sampling.caches.size()))
         return;
     Frames frames;
     Cell empty;
@@ -271,6 +272,9 @@ void Run::scene(const Experiment& experiment, const std::string& name,
                        : session_.build_once(*built[k].builder, frames.now(), experiment.start,
                                              &built[k].tree);
         };
+        subject.upload = [&] { frames.upload_points(session_); };
+        if (entry.outside != nullptr)
+            subject.no_copies = no_copies_of_outside;
         subject.judge_again = [&, k] {
             subject.cell.check =
                 check_again(*built[k].tree, frames.now(), std::move(subject.cell.check));
@@ -281,9 +285,8 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     }
     oracle.wait();  // builders that failed may have begun references that are still running
     oracle_before.wait();
-    engine.sample(subjects);
-    for (const Subject& subject : subjects)
-        results_.add(subject.cell);
+    for (const Cell& cell : engine.sample(subjects))
+        results_.add(cell);
 }
 
 }  // namespace bvhbench

@@ -99,7 +99,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
         }
     }
     const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
-    if (passes && passes((steps.end - steps.first) * cells_a_step))
+    if (passes && passes((steps.end - steps.first) * cells_a_step * task.sampling.caches.size()))
         return;
     const std::optional<GroundTruth> truth = ground_truth_of(scene, questions[1].parts);
     Input& first = questions[0].input;

@@ -122,7 +122,7 @@ std::string cell_text(const Cell& cell)
         json["first"] = cell.first;
     if (cell.sampling.stopped != Stopped::not_sampled) {
         json["sampling"] = {{"stopped", stopped_name(cell.sampling.stopped)},
-                            {"caches", cell.sampling.cold ? "cold" : "hot"}};
+                            {"caches", caches_name(cell.sampling.caches)}};
         if (cell.sampling.until > 0)
             json["sampling"]["until"] = cell.sampling.until;
         put_if(json["sampling"], "race", std::string(race_name(cell.sampling.race)));

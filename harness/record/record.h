@@ -88,7 +88,7 @@ struct SamplingFacts {
     Stopped stopped = Stopped::not_sampled;  ///< why sampling stopped
     double until = 0;                        ///< target for interquartile range / median; 0: none
     Race race = Race::none;
-    bool cold = false;  ///< whether caches were emptied before each sample
+    Caches caches = Caches::hot;
 };
 
 /// Times before the first sample, on the host's clock.
@@ -121,7 +121,7 @@ struct Cell {
 };
 
 /// Format version of written files.
-inline const std::string result_format = "1.11";
+inline const std::string result_format = "1.12";
 
 /// Returns a cell as one line of JSON. Numbers that are not finite are left out.
 std::string cell_text(const Cell& cell);

@@ -75,11 +75,11 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
     return *builders_.back().builder;
 }
 
-void Session::empty_caches(bool before_each)
+void Session::set_caches(Caches caches)
 {
-    if (before_each && !cache_flush_)
+    if (caches == Caches::cold && !cache_flush_)
         cache_flush_.emplace(programs_, queue());
-    cold_ = before_each;
+    caches_ = caches;
 }
 
 void Session::take_turns(const std::string& path, const std::string& id)
@@ -110,7 +110,9 @@ std::int64_t Session::calibrate()
 
 void Session::give_head_start()
 {
-    if (cold_)
+    if (caches_ == Caches::host)
+        return;
+    if (caches_ == Caches::cold)
         cache_flush_->flush(queue());
     if (!head_start_)
         head_start_.emplace(programs_, queue());

@@ -11,6 +11,7 @@
 #include "device/yardsticks.h"
 #include "harness/base/common_options.h"
 #include "harness/choice/catalog.h"
+#include "harness/choice/sampling.h"
 #include "harness/session/pocl_cache.h"
 #include "harness/session/turns.h"
 #include "scenes/catalog.h"
@@ -46,11 +47,11 @@ public:
     Builder& builder(const BuilderChoice& choice, Operation operation = Operation::build);
 
     /// Prepares a timed sample before its work is enqueued: empties the caches if samples are cold, and gives a GPU a head start
-    /// (device/yardsticks.h).
+    /// (device/yardsticks.h) unless the sample begins on the host.
     void give_head_start();
 
-    /// Sets whether samples from now on find empty caches. Throws if the memory for emptying them cannot be allocated.
-    void empty_caches(bool before_each);
+    /// Sets where samples from now on find their data. Throws if the memory for emptying caches cannot be allocated.
+    void set_caches(Caches caches);
 
     /// Samples by turns with other runs if `path` is not empty. It is "FILE:N": N runs name the file. `id` names this run. Throws
     /// BadUsage or Unavailable.
@@ -83,7 +84,7 @@ private:
     std::optional<HeadStart> head_start_;  ///< this and the next two are made at the first use
     std::optional<CacheFlush> cache_flush_;
     std::optional<Calibration> calibration_;
-    bool cold_ = false;
+    Caches caches_ = Caches::hot;
     std::optional<Turns> turns_;
     SceneLibrary library_;
     Doubles doubles_asked_ = library_.doubles;

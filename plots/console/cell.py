@@ -1,6 +1,7 @@
 """Prints one cell in full: its stages as a table, its counters and its verdict."""
 import itertools
 
+import names
 import results
 from cells import Cell, median
 from console import spread
@@ -61,7 +62,8 @@ def waited(cell: Cell, stage: str, state: str) -> str:
 
 def samples(cell: Cell) -> str:
     sampling, count = cell.raw.get("sampling", {}), len(cell.all_samples)
-    line = f"{count} samples{', caches emptied before each' if sampling.get('caches') == 'cold' else ''}"
+    several = f" of {len(cell.processes)} processes" if len(cell.processes) > 1 else ""
+    line = f"{count} samples{several}{f', {names.CACHES[cell.caches]}' if cell.caches in names.CACHES else ''}"
     if drifted := sum(sample.get("drifted", False) for sample in cell.all_samples):
         line += f", {drifted} of them beside drift of the device{' and left out here' if len(cell.samples) < count else ''}"
     noise = f"{100 * spread.quartile_range(cell.times_ns()):.1f} %"

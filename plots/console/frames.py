@@ -36,7 +36,7 @@ def text(run: results.Run, printed: str = "") -> str:
     there are no frames. Of several frames the first is in the column "first", and all other columns have means over those after it.
     The column "wall" is the host's clock, in ms. The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
-                          lambda cell: cell.key("scene", "builder", "collider", "experiment")).values())
+                          lambda cell: cell.key("scene", "builder", "collider", "experiment", "caches")).values())
     has_wall = any(cell.wall_ns for cells in groups for cell in cells)
     table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", *["wall"] * has_wall, "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []

@@ -36,10 +36,10 @@ def refits(run: results.Run) -> str:
     rebuilds: dict[tuple[object, ...], Cell] = {}
     for cell in run.all_cells:
         if cell.operation == "build" and may_be_shown(cell):
-            rebuilds.setdefault(cell.key("builder", "scene", "experiment"), cell)
+            rebuilds.setdefault(cell.key("builder", "scene", "experiment", "caches"), cell)
     slower = 0
     for cell in run.all_cells:
-        beside = rebuilds.get(cell.key("builder", "scene", "experiment"))
+        beside = rebuilds.get(cell.key("builder", "scene", "experiment", "caches"))
         if cell.operation != "refit" or not may_be_shown(cell) or beside is None:
             continue
         times = (beside.median_ns(), cell.median_ns()), (beside.median_ns("hierarchy"), cell.median_ns("refit"))

@@ -15,7 +15,7 @@ def name_of(cell: Cell) -> str:
     words += [f"{key}:{value}" for key, value in own.get("accuracy", {}).items()]
     words += ["refit"] * (own["operation"] == "refit") + ["sorted-leaves"] * cell.starts_from_leaves
     words += [f"swept:{own['swept'][0]}", f"to_frame:{own['swept'][1]}"] if cell.swept else []
-    words += ["cold"] * (own["caches"] == "cold")
+    words += [own["caches"]] * (own["caches"] != "hot")
     return "/".join(str(word).replace(" ", "_") for word in words)
 
 

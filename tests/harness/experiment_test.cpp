@@ -212,8 +212,10 @@ TEST(Experiment, SaysWhenToStopSamplingAndWhetherCachesAreCold)
                                                   .max_samples = 300,
                                                   .time_budget_s = 2.5,
                                                   .race = Race::query,
-                                                  .cold = true}));
+                                                  .caches = {Caches::cold}}));
     EXPECT_EQ(experiment.collisions.at(0).sampling, experiment.sampling);
+    EXPECT_EQ(of(R"(, "caches": ["cold", "host"])").sampling.caches,
+              (std::vector{Caches::cold, Caches::host}));
 }
 
 TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
@@ -258,14 +260,29 @@ TEST(Experiment, RefusesWhatMakesNoSense)
           R"([{"name": "perfect", "boxes": "u8", "leaves": "mesh"}])",
           R"([{"name": "oibvh-wide4", "boxes": "u8"}])"})
         texts.push_back(with(R"("a")", R"(["b"])", builders));
-    for (const char* more :
-         {R"("samples": 0)", R"("samples": "9")", R"("samples": 1.5)", R"("warm_up": -1)",
-          R"("stages": [])", R"("stages": ["x"])", R"("operations": [])",
-          R"("operations": "refit")", R"("operations": ["build", "build"])",
-          R"("operations": ["build", "paint"])", R"("doubles": "exact")", R"("until": -1)",
-          R"("until": "2%")", R"("caches": "warm")", R"("min_samples": 20)",
-          R"("until": 0.1, "min_samples": 20, "max_samples": 10)", R"("time_budget_s": 3)",
-          R"("race": "fastest")"})
+    for (const char* more : {R"("samples": 0)",
+                             R"("samples": "9")",
+                             R"("samples": 1.5)",
+                             R"("warm_up": -1)",
+                             R"("stages": [])",
+                             R"("stages": ["x"])",
+                             R"("operations": [])",
+                             R"("operations": "refit")",
+                             R"("operations": ["build", "build"])",
+                             R"("operations": ["build", "paint"])",
+                             R"("doubles": "exact")",
+                             R"("until": -1)",
+                             R"("until": "2%")",
+                             R"("caches": "warm")",
+                             R"("caches": [])",
+                             R"("caches": ["hot", 1])",
+                             R"("caches": ["hot", "hot"])",
+                             R"("caches": "host", "race": "whole")",
+                             R"("caches": ["hot", "cold"], "race": "whole")",
+                             R"("min_samples": 20)",
+                             R"("until": 0.1, "min_samples": 20, "max_samples": 10)",
+                             R"("time_budget_s": 3)",
+                             R"("race": "fastest")"})
         texts.push_back(with(R"("a")", R"(["b"])", one, std::string(", ") + more));
     EXPECT_EQ(refusal(with(R"("a")", R"(["b"])", one)), "") << "these would all be refused";
     for (const std::string& text : texts)

@@ -86,7 +86,7 @@ TEST(Record, TellsAllThatACellIsAbout)
     cell.leaves_by_depth = {0, 1, 2};
     cell.check = {Check::Verdict::counted, "brute", "3 false", {}, 0x34u, 0x56u};
     cell.first = {.compile_ns = 12, .run_ns = 34};
-    cell.sampling = {.stopped = Stopped::noisy, .until = 0.02, .cold = true};
+    cell.sampling = {.stopped = Stopped::noisy, .until = 0.02, .caches = Caches::cold};
     cell.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}, 99, true}};
     const Json json = Json::parse(cell_text(cell));
     const auto at = [&](const char* pointer) { return json.at(Json::json_pointer(pointer)); };

@@ -79,6 +79,24 @@ class Remake(unittest.TestCase):
         document = json.loads(lzma.decompress((self.folder / "both.json.xz").read_bytes()))
         self.assertEqual([cell["builder"]["name"] for cell in document["cells"]], list(pieces.values()))
 
+    def test_joins_what_several_processes_made(self) -> None:
+        words = argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True)
+        script = runpy.run_path(str(SCRIPT))
+        pieces = [script["piece"](unit) for unit in script["units"]() if unit.file == "headlines"]
+        self.assertEqual(pieces, ["headlines.1", "headlines.2", "headlines.3"])
+        maker = script["Maker"](words)
+        maker.ask()
+        for name in pieces:
+            file = self.folder / f"{name}.json"
+            subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", "oibvh-single", "--samples", "2", "--device", "cpu",
+                            "--json", file], check=True, capture_output=True)
+            (self.folder / f"{name}.json.xz").write_bytes(lzma.compress(file.read_bytes()))
+            file.unlink()
+        self.assertTrue(maker.merge("headlines", pieces))
+        cell, = json.loads(lzma.decompress((self.folder / "headlines.json.xz").read_bytes()))["cells"]
+        self.assertEqual([sample["process"] for sample in cell["samples"]], [0, 0, 1, 1, 2, 2])
+        self.assertTrue(maker.is_there("headlines"))
+
     def test_refuses_in_one_sentence(self) -> None:
         for words, code, said in ((("--part", "99"), 2, "there is no part 99; there are 1 to "),
                                   (("--only", "nothing"), 2, "there is no file nothing; --list"),

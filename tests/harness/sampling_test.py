@@ -55,12 +55,49 @@ def test_cold_caches_are_emptied_before_each_sample() -> None:
     """Counts lines that the cache-emptying kernel is made to print, because the effect on times depends on the machine."""
     copied_kernels("kernels", "device/limits.cl", r"(kernel void walk\([^)]*\)\s*\{)",
                    r'\1 if (get_global_id(0) == 0) printf("walked\\n");')
-    for words, times in (((), 0), (("--cold",), 1)):
+    for words, times in (((), 0), (("--caches", "cold"), 1)):
         said = expect(0, *BUILD, "--samples", "5", "--kernels", "kernels", "--json", "a.json", "--force", *words)
         cell = only("a.json")
         assert cell["sampling"]["caches"] == ("cold" if words else "hot") and len(cell["samples"]) == 5
         # Before each sample and each of the 3 warm-up builds, and once when the buffer is created.
         assert said.count("walked\n") == times * (5 + 3 + 1), said
+
+
+def test_each_kind_of_caches_has_cells_of_its_own() -> None:
+    kinds = ["hot", "cold", "host"]
+    experiment("kinds.json", scenes=[{"scene": "torus:3000", "objects": "one"}], builders=["oibvh-single"], samples=4,
+               pipelines=[{"builder": "oibvh-single", "collider": "block", "narrow": "exact"}, {"collider": "brute"}], caches=kinds)
+    expect(0, "run", "kinds.json", "--out", "a.json", "--force")
+    cells = valid("a.json")["cells"]
+    assert [cell["sampling"]["caches"] for cell in cells] == 3 * kinds
+    assert all(len(cell["samples"]) == 4 and cell["check"]["verdict"] == "agrees" for cell in cells)
+    for cell in cells:
+        for sample in cell["samples"]:
+            names = [stage["stage"] for stage in sample["stages"]]
+            copies = {name: name in names for name in ("upload", "read_back")}
+            is_frame, is_host = cell["operation"] == "collide", cell["sampling"]["caches"] == "host"
+            if cell["builder"]["name"] == "none":  # brute force on the host has nothing to copy
+                assert names == ["broad"] and sample["wall_ns"] >= sample["stages"][0]["wall_ns"]
+                continue
+            assert copies == {"upload": is_host, "read_back": is_host and is_frame}, (cell["collider"], copies)
+            if is_host:
+                assert names[0] == "upload" and (names[-1] == "read_back") == is_frame
+                assert sample["wall_ns"] >= sum(stage.get("wall_ns", 0) + stage.get("busy_ns", 0) for stage in sample["stages"])
+    expect(0, "run", "kinds.json", "--caches", "host", "--out", "b.json", "--force")
+    assert [cell["sampling"]["caches"] for cell in valid("b.json")["cells"]] == 3 * ["host"]
+    expect(2, "run", "kinds.json", "--caches", "warm", says="caches are hot, cold or host, not 'warm'")
+    expect(2, "run", "kinds.json", "--race", "whole", says="--caches: a race is with hot or with cold ones")
+
+
+def test_processes_are_told_apart_in_one_file() -> None:
+    for process in range(3):
+        expect(0, *BUILD, "--samples", "9", "--json", f"process-{process}.json")
+    files = [f"process-{process}.json" for process in range(3)]
+    expect(0, "merge", "--processes", *files, "-o", "joined.json", says="1 cell of 3 runs")
+    cell = only("joined.json")
+    assert [sample["process"] for sample in cell["samples"]] == [0] * 9 + [1] * 9 + [2] * 9
+    expect(0, "show", "joined.json", says="27 samples of 3 processes")
+    expect(2, "merge", *files, "-o", "two.json", says="not the same of it")
 
 
 def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:

@@ -182,7 +182,7 @@ def test_shards_together_are_the_whole():
 
 
 def test_cells_from_warm_and_empty_caches_are_two():
-    for name, words in (("hot", ()), ("cold", ("--cold",))):
+    for name, words in (("hot", ()), ("cold", ("--caches", "cold"))):
         expect(0, "build", "--builder", "perfect", "--scene", "soup:70", "--samples", "2", "--json", f"{name}.json", *words)
     expect(0, "merge", "hot.json", "cold.json", "-o", "both.json", says="2 cells of 2 runs")
     frames = ("collide", "--collider", "group", "--scene", "cloth-ball:500:2", "--frames", "1", "--samples", "1")

@@ -65,6 +65,19 @@ class ARanking(unittest.TestCase):
         hardly = ranked(frame("group", [1000] * 9), frame("bvtt", [1004] * 9), frame("leaf", [1006] * 9))
         self.assertEqual([row.tied for row in hardly.rows], [True, True, False])
 
+    def test_takes_the_spread_between_processes_for_noise(self) -> None:
+        """Medians of one process are far apart in the noise of that process, and within what another process may take."""
+        fast, slow = frame("group", [100, 101, 102] * 9), frame("bvtt", [107, 108, 109] * 9)
+        self.assertFalse(ranked(fast, slow).rows[1].tied)
+        for raw, more in ((fast, (0, 0, 7)), (slow, (0, -1, 1))):
+            raw["processes"] = ["a", "b", "c"]
+            for place, sample in enumerate(raw["samples"]):
+                sample["process"] = place // 9
+                for one in sample["stages"]:
+                    one["span_ns"] += 500 * more[place // 9]
+        self.assertEqual([row.tied for row in ranked(fast, slow).rows], [True, True])
+        self.assertEqual([cell.median_ns() for cell in Cell(fast).processes], [101e3, 101e3, 108e3])
+
     def test_of_few_samples_tells_what_is_far_apart_only(self) -> None:
         found = ranked(frame("group", [100]), frame("bvtt", [250]), frame("leaf", [301]))
         self.assertEqual([row.tied for row in found.rows], [True, True, False])

@@ -70,7 +70,23 @@ def with_sentences(change: Callable[[Raw], Any], **rules: Any) -> tuple[list[str
     return only.regressions, only.changes
 
 
+def of_processes(*medians_ns: float, seed: int) -> Raw:
+    """Returns a cell with forty samples of each process, which has a median of its own."""
+    whole = cell(samples=0)
+    for process, median_ns in enumerate(medians_ns):
+        own = cell(median_ns=median_ns, seed=seed + process, first=40 * process)["samples"]
+        whole["samples"] += [{**sample, "process": process} for sample in own]
+    return whole | {"processes": [f"run {process}" for process in range(len(medians_ns))]}
+
+
 class Times(unittest.TestCase):
+    def test_of_several_processes_differ_only_by_more_than_processes_do(self) -> None:
+        one, other = of_processes(1e6, 1e6, 1.2e6, seed=1), of_processes(1e6, 1.2e6, 1.2e6, seed=7)
+        self.assertEqual(verdicts(document(one), document(other)), [UNSURE])
+        single = [{**each, "samples": [sample for sample in each["samples"] if sample["process"] == process]}
+                  for each, process in ((one, 0), (other, 1))]
+        self.assertEqual(verdicts(document(single[0]), document(single[1])), [SLOWER])
+
     def verdict_of(self, factor: float, threshold: float = 0.05, samples: int = 40, noise: float = 0.02) -> str:
         return verdicts(document(cell(samples=samples, noise=noise)),
                         document(cell(median_ns=factor * 1e6, seed=2, samples=samples, noise=noise)), threshold=threshold)[0]

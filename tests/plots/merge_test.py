@@ -6,6 +6,7 @@ import unittest
 
 from base import GOLDEN, InFolder  # first: it adds plots to sys.path
 
+import cells
 import documents
 import file_lock
 import merging
@@ -118,6 +119,62 @@ class Merging(unittest.TestCase):
         self.assertTrue(merged.differs)
         self.assertEqual(json.loads(merged.text)["format"], "1.8")  # the first format with merged files
         documents.document_of(merged.text.encode(), "merged")
+
+
+class JoiningProcesses(unittest.TestCase):
+    def joined(self, *documents_: dict) -> dict:
+        merged = merging.merge(zip("abc", documents_), processes=True)
+        document = documents.document_of(merged.text.encode(), "merged")  # obeys the schema
+        self.assertEqual(document["format"], "1.12")
+        return document
+
+    def test_a_cell_has_the_samples_of_all_and_each_says_whose_it_is(self) -> None:
+        parts = [of_run(golden(), name) for name in ("x", "y", "z")]
+        parts[1]["cells"].reverse()
+        document = self.joined(*parts)
+        self.assertEqual([source["id"] for source in document["merged_from"]], ["x", "y", "z"])
+        self.assertEqual(len(document["cells"]), len(parts[0]["cells"]))
+        measured = 0
+        for before, after in zip(parts[0]["cells"], document["cells"]):
+            if before["status"] != "measured":
+                self.assertEqual(after, {**before, "run": "x"})
+                continue
+            measured += 1
+            self.assertEqual((after["run"], after["processes"], after["counters"]), ("x", ["x", "y", "z"], before["counters"]))
+            count = len(before["samples"])
+            self.assertEqual([sample["process"] for sample in after["samples"]], [0] * count + [1] * count + [2] * count)
+            self.assertEqual([sample["stages"] for sample in after["samples"]], [sample["stages"] for sample in before["samples"]] * 3)
+            order = [sample["order"] for sample in after["samples"]]
+            self.assertEqual(order, sorted(set(order)))
+            self.assertEqual([one.raw["samples"] for one in cells.Cell(after).processes],
+                             [after["samples"][k * count:(k + 1) * count] for k in range(3)])
+        self.assertGreater(measured, 0)
+
+    def test_is_as_good_as_its_worst_process(self) -> None:
+        parts = [of_run(golden(), name) for name in "xyz"]
+        place = next(k for k, cell in enumerate(parts[0]["cells"]) if cell["status"] == "measured")
+        parts[1]["cells"][place]["check"] |= {"verdict": "differs", "detail": "a node is lost"}
+        merged = merging.merge(zip("abc", parts), processes=True)
+        self.assertTrue(merged.differs)
+        self.assertEqual(json.loads(merged.text)["cells"][place]["check"]["detail"], "a node is lost")
+        parts[2]["cells"][place] = {key: value for key, value in parts[2]["cells"][place].items() if key not in ("samples", "check")} | {
+            "status": "failed", "reason": "no memory"}
+        self.assertEqual(self.joined(*parts)["cells"][place]["reason"], "no memory")
+
+    def test_refuses_what_is_not_the_same_in_processes_of_their_own(self) -> None:
+        document = golden()
+        other, fewer, wrong = (of_run(document, name) for name in "xyz")
+        fewer["cells"].pop()
+        measured = next(cell for cell in wrong["cells"] if cell["status"] == "measured")
+        measured["check"]["tree_hash"] = "0123456789abcdef"
+        several = json.loads(merging.merge([("a", {**document, "cells": document["cells"][::2]}),
+                                            ("b", of_run({**document, "cells": document["cells"][1::2]}, "w"))]).text)
+        for parts, says in (((document,), "at least two processes, each once"), ((document, document), "at least two processes, each once"),
+                            ((document, fewer), "a and b do not have the same cells: .* is in one of them"),
+                            ((document, other, wrong), "a and c do not agree on .*0123456789abcdef"),
+                            (({**several, "format": document["format"]}, other), "a is not what one process of `run`")):
+            with self.assertRaisesRegex(WrongUsage, says):
+                merging.merge(zip("abc", parts), processes=True)
 
 
 class Reserving(InFolder):

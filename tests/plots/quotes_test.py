@@ -5,9 +5,11 @@ import pathlib
 import re
 import unittest
 
-from base import ROOT, InFolder  # first: it adds plots to sys.path
+from base import ROOT, InFolder, cell  # first: it adds plots to sys.path
 
+import headlines
 import quotes
+from cells import Cell
 
 # They name result files as examples or for words, and quote no number of one.
 NO_NUMBER_OF_A_FILE = {"docs/report.md"}
@@ -46,6 +48,21 @@ class TheDocuments(unittest.TestCase):
                  f"{known.get(name, 0)} are known; plots/quotes.py --loose {name} prints them"
                  for name in sorted({*known, *found}) if found.get(name, 0) != known.get(name, 0)]
         self.assertEqual(wrong, [], "\n".join(["", *wrong]))
+
+
+class AHeadline(unittest.TestCase):
+    def test_tells_the_band_within_and_the_spread_between_processes(self) -> None:
+        made = cell(processes=["a", "b", "c"])
+        made["samples"] = []
+        for process, (middle, half) in enumerate(((100, 1), (104, 10), (101, 2))):  # microseconds
+            for us in (middle - half, middle, middle + half):
+                made["samples"].append({"process": process, "wall_ns": 2000 * us,
+                                        "stages": [{"stage": "hierarchy", "span_ns": 1000 * us, "launches": 1}]})
+        # All medians: 101; the widest band is that of the second, 94 to 114 at its ends, 96 to 112 at the percentiles.
+        self.assertEqual(headlines.told([Cell(made)]), "0.101 (0.096–0.112; 4.0 %)")
+        self.assertEqual(headlines.told([Cell(made)], by_host=True), "0.202 (0.192–0.224; 4.0 %)")
+        single = cell()
+        self.assertEqual(headlines.told([Cell(single)]), "0.100 (0.092–0.108; 0.0 %)")
 
 
 class ADocument(InFolder):

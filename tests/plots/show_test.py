@@ -72,7 +72,7 @@ class OfACell(unittest.TestCase):
         raw["samples"][0]["drifted"] = True  # the slowest
         for sample, queued in zip(raw["samples"][1:], (4000, 6000)):
             sample["stages"][0] |= {"queued_ns": queued, "submitted_ns": 700}
-        self.assertIn("3 samples, caches emptied before each, 1 of them beside drift of the device and left out here; "
+        self.assertIn("3 samples, cold caches, 1 of them beside drift of the device and left out here; "
                       "quartiles 5.3 % apart and staying so, above 2.0 %\n"
                       "first run 3.00 ms on the host's clock, kernels compiled in 2.00 us\n", shown(raw))
         self.assertRegex(shown(raw), r"hierarchy  95\.0 us .* 5\.00 us +700 ns\n")

@@ -52,7 +52,7 @@ def builds(doc: Document) -> None:
              floor_us(single[0], "sort", rate), us(single[0], "sort"), us(single[0], "sort") / floor_us(single[0], "sort", rate),
              floor_us(single[1], "sort", rate), us(single[1], "sort"))
 
-    cold = both(File("h200/peers-cold"), "oibvh-single")
+    cold = both(File("h200/peers-cold"), "oibvh-single, cold caches")
     doc.says("take {}, {} and {} µs, those of torus:144046 {}, {} and {}",
              *(us(cell, stage) for cell in cold for stage in ("bounds", "codes", "hierarchy")))
     doc.says("The sort took {} µs of the small one; of the large one {}", us(cold[1], "sort"), us(cold[0], "sort"))
