@@ -5,6 +5,7 @@ import math
 import pathlib
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
+from typing import TypeVar
 
 import matplotlib.pyplot as plt
 import numpy
@@ -21,6 +22,7 @@ FOOTER = 4  # lines of the footer that a figure's height includes
 Draw = Callable[[results.Run], plt.Figure]
 Curve = list[tuple[int, results.Quantiles]]  # triangles and a quantity, by size
 Figures = dict[str, Callable[[], plt.Figure]]  # by the name of the picture
+Made = TypeVar("Made")
 
 
 def listed(names: list[str]) -> str:
@@ -148,13 +150,29 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
                 linespacing=1.25)
 
 
-def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: list[pathlib.Path], force: bool) -> Iterator[pathlib.Path]:
-    """Draws and saves each figure and yields the paths. Raises as style.save, and results.Refused if drawing fails."""
+def made(run: results.Run, figures: Figures, make: Callable[[plt.Figure, str], Made]) -> Iterator[Made]:
+    """Draws each figure and yields what `make` returns of it and its name. Raises as `make`, and results.Refused if drawing fails."""
     for name, draw in figures.items():
         try:
-            yield from style.save(draw(), folder, name, inputs, force)
+            yield make(draw(), name)
         except (ArithmeticError, LookupError, RuntimeError, TypeError, UserWarning, ValueError) as error:
             raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
+
+
+def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: list[pathlib.Path], force: bool) -> Iterator[pathlib.Path]:
+    """Draws and saves each figure and yields the paths. Raises as style.save, and results.Refused if drawing fails."""
+    for paths in made(run, figures, lambda drawing, name: style.save(drawing, folder, name, inputs, force)):
+        yield from paths
+
+
+def as_svg(run: results.Run, figures: Figures) -> list[tuple[str, str]]:
+    """Returns the name and the SVG of each figure. Raises results.Refused if drawing fails."""
+    def text(drawing: plt.Figure, name: str) -> tuple[str, str]:
+        content = style.content(drawing, ".svg").decode("utf-8")
+        plt.close(drawing)
+        return name, content
+
+    return list(made(run, figures, text))
 
 
 def named(run: results.Run, draws: dict[str, Draw], why_none: str = "") -> Figures:

@@ -13,6 +13,8 @@ import sys
 from collections import Counter
 from typing import Any
 
+import all as all_figures
+import figure
 import json_files
 import output
 import report_builders
@@ -25,9 +27,13 @@ import report_skips
 import report_stress
 import report_tables
 import results
+import style
 from cells import Cell
+from report_tables import TO_SAMPLES
 
 
+LEADS_ON = "A time stands beside its verdict, and leads to its raw samples; so does a mark of a chart."
+IN_BRIEF = "A time stands beside its verdict; the result files have the raw samples."
 OF_A_FILE = ("cells", "bars", "looks", "tables", "findings")  # what the overview does not need of a file's data
 
 
@@ -71,7 +77,24 @@ def titles_of(files: list[pathlib.Path]) -> list[str]:
     return [text_of(name if names.count(name) == 1 else f"{path.resolve().parent.name}/{name}") for path, name in zip(files, names)]
 
 
-def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:
+def unlinked(table: dict[str, Any]) -> dict[str, Any]:
+    """Returns a table whose numbers do not lead to their samples."""
+    def leads_on(key: str, value: Any) -> bool:
+        return key == "cells" or (key == "links" and any(link and link.startswith("#cell=") for link in value or []))
+
+    columns = [{key: value for key, value in column.items() if not leads_on(key, value)} for column in table["columns"]]
+    return table | {"cells": None, "columns": columns, "note": table["note"].replace(TO_SAMPLES, "")}
+
+
+def in_brief(path: pathlib.Path, data: dict[str, Any]) -> tuple[dict[str, Any], list[tuple[str, str]]]:
+    """Returns a file's data for tables alone, and the figures in place of its charts."""
+    style.set_up()
+    run = results.load(path)
+    kept = data | {"cells": [], "bars": [], "looks": {}, "tables": [unlinked(table) for table in data["tables"]]}
+    return kept, figure.as_svg(run, all_figures.pictures_of(run))
+
+
+def make(files: list[pathlib.Path], views: list[pathlib.Path], is_brief: bool) -> tuple[str, bool]:
     """Returns the page and whether an answer was wrong. Raises results.Refused."""
     blobs, sections, is_wrong, summary, found = [], [], False, [], []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
@@ -79,7 +102,8 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         cells = [Cell(cell) for cell in document["cells"]]
         try:
             data = file_data(path, document, cells) | {"title": title}
-            blobs.append(report_page.json_blob(f"file-{number}", data))
+            shown, pictures = in_brief(path, data) if is_brief else (data, [])
+            blobs.append(report_page.json_blob(f"file-{number}", shown))
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
         is_wrong |= "differs" in data["states"]
@@ -88,25 +112,31 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         found.append((title, data["findings"]))
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document), report_facts.facts_of(document), data["findings"]))
-        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in cells]))
-    shown = []
+        if is_brief:
+            blobs.append(report_page.json_blob(f"pictures-{number}", pictures))
+        else:
+            blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in cells]))
+    scenes = []
     for number, path in enumerate(views):
         facts, arrays = report_facts.view_of(path)
         is_wrong |= facts["state"] == "differs"
-        shown.append(facts)
+        scenes.append(facts)
         blobs += [report_page.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]
-    head = {"files": summary, "views": shown, "stages": report_looks.stage_looks(), "dark": report_looks.IN_THE_DARK,
-            "best": report_findings.best_table(found)}
+    best = report_findings.best_table(found)
+    head = {"files": summary, "views": scenes, "stages": report_looks.stage_looks(), "dark": report_looks.IN_THE_DARK,
+            "best": unlinked(best) if best and is_brief else best}
     title = "bvhbench report" + (f": {', '.join(titles_of(files)[:4])}" if files else "")
     title += f" and {len(files) - 4} more" if len(files) > 4 else ""
     blobs.insert(0, report_page.json_blob("head", head))
-    return report_page.page(title, report_page.findings(found), sections, blobs, bool(shown)), is_wrong
+    libraries = report_page.libraries(charts=not is_brief, scenes=bool(scenes))
+    said = report_page.devices([file["device"] for file in summary]) + report_page.findings(found)
+    return report_page.page(title, said, IN_BRIEF if is_brief else LEADS_ON, sections, blobs + libraries), is_wrong
 
 
-def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, force: bool) -> int:
+def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, force: bool, is_brief: bool) -> int:
     """Writes the page and returns the exit code: 1 if an answer was wrong. Raises output.WrongUsage or results.Refused."""
     output.check(out, [*files, *views], force, output.is_page)
-    text, is_wrong = make(files, views)
+    text, is_wrong = make(files, views, is_brief)
     content = text.encode("utf-8")
     if output.write(out, content):
         print(f"written: {out}, {len(content) / 1e6:.1f} MB")
@@ -119,9 +149,11 @@ def main() -> int:
     parser.add_argument("-o", "--out", type=pathlib.Path, default=pathlib.Path("report.html"), help="the page")
     parser.add_argument("--force", action="store_true", help="replace a file that is no page")
     parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as `bvhbench view` writes it")
+    parser.add_argument("--brief", action="store_true", help="figures in place of charts, and no samples")
     arguments = parser.parse_args()
 
-    return output.to_an_end(lambda: write(arguments.files, arguments.view, arguments.out, arguments.force), "bvhbench: ")
+    return output.to_an_end(lambda: write(arguments.files, arguments.view, arguments.out, arguments.force, arguments.brief),
+                            "bvhbench: ")
 
 
 if __name__ == "__main__":

@@ -63,6 +63,10 @@ def finding(found: dict[str, Any], head: str = "") -> str:
     return f'<div class="finding">{head}{"".join(lines)}</div>' if lines else ""
 
 
+def devices(names: list[str]) -> str:
+    return f'<p class="note">Measured on {html.escape(", ".join(dict.fromkeys(names)))}.</p>' if names else ""
+
+
 def findings(files: list[tuple[str, list[dict[str, Any]]]]) -> str:
     """Returns what was found in each file, with links to the files."""
     def head(number: int, title: str, experiment: str) -> str:
@@ -85,12 +89,15 @@ def section(number: int, title: str, sentence: str, warnings: list[str], facts: 
             '<div class="verdicts"></div><div class="charts"></div><div class="tables"></div></section>')
 
 
-def page(title: str, found: str, sections: list[str], blobs: list[str], has_views: bool) -> str:
-    libraries = [blob("plotly", plotly_file().read_bytes())]
-    if has_views:
-        libraries.append(blob("three", b"\n".join(path.read_bytes() for path in three_files())))
-    filled = {"TITLE": html.escape(title), "STYLE": inlined(STYLES), "FINDINGS": found, "SECTIONS": "\n".join(sections),
-              "BLOBS": "\n".join([*blobs, *libraries]), "SCRIPT": inlined(SCRIPTS)}
+def libraries(charts: bool, scenes: bool) -> list[str]:
+    """Returns the libraries that a page with charts or scenes needs. Raises results.Refused if one is not there."""
+    found = [blob("plotly", plotly_file().read_bytes())] if charts else []
+    return found + ([blob("three", b"\n".join(path.read_bytes() for path in three_files()))] if scenes else [])
+
+
+def page(title: str, found: str, note: str, sections: list[str], blobs: list[str]) -> str:
+    filled = {"TITLE": html.escape(title), "STYLE": inlined(STYLES), "FINDINGS": found, "NOTE": html.escape(note),
+              "SECTIONS": "\n".join(sections), "BLOBS": "\n".join(blobs), "SCRIPT": inlined(SCRIPTS)}
     text = (PARTS / "page.html").read_text(encoding="utf-8")
     for name, content in filled.items():
         text = text.replace(f"<!--{name}-->", content)

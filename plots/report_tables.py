@@ -12,6 +12,7 @@ from report_looks import stage_looks
 
 STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
 UNITS = (("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9))
+TO_SAMPLES = " Each time leads to its samples."
 Cells = list[tuple[int, dict[str, Any]]]  # places in the file and the cells' data
 Value = Callable[[dict[str, Any]], Any]
 
@@ -135,15 +136,15 @@ def tables_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
         tables.append(table.data() | {"folded": all(data["state"] == "skipped" for _, data in missing)})
     if builds:
         tables.append(times_table("Builds", builds, "builder", TREE,
-                                  "Whole: the sum of the stages. Stages: medians. Each time leads to its samples."))
+                                  "Whole: the sum of the stages. Stages: medians." + TO_SAMPLES))
     if frames:
         if len({data["frame"] for _, data in frames}) > 1:
             tables.append(summary_table(frames))
         tables.append(times_table("Frames", frames, "pipeline", FOUND,
-                                  "Whole: from the first start to the last end. Stages: medians. Each time leads to its samples."))
+                                  "Whole: from the first start to the last end. Stages: medians." + TO_SAMPLES))
     if others:
         tables.append(times_table("Accuracy", others, "method", ["pairs_count", "missed_count", "false_count", "sah_cost"],
-                                  "Times beside errors. Each time leads to its samples."))
+                                  "Times beside errors." + TO_SAMPLES))
     if counters := sorted({name for data in cells for name in data["counters"]}):
         table = begin("All counters", placed, "who")
         table.counters(counters)

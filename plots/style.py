@@ -150,20 +150,24 @@ def with_palette(png: io.BytesIO) -> bytes:
         return smaller.getvalue()
 
 
-def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathlib.Path], force: bool) -> list[pathlib.Path]:
-    """Writes PNG and SVG. Equal numbers give equal bytes: no dates, no random names. Raises what output raises."""
-    pictures = {folder / f"{name}.png": {"dpi": DPI}, folder / f"{name}.svg": {"metadata": {"Date": None, "Creator": None}}}
-    for path in pictures:
-        output.check(path, inputs, force, output.is_picture)
+def content(figure: plt.Figure, kind: str) -> bytes:
+    """Returns the picture as ".png" or ".svg". Equal numbers give equal bytes: no dates, no random names."""
     if figure.get_layout_engine() is not None:
         settle(figure)
-    contents = {}
-    for path, how in pictures.items():
-        with io.BytesIO() as content:
-            figure.savefig(content, format=path.suffix[1:], **how)
-            contents[path] = with_palette(content) if path.suffix == ".png" else content.getvalue()
+    how = {"dpi": DPI} if kind == ".png" else {"metadata": {"Date": None, "Creator": None}}
+    with io.BytesIO() as made:
+        figure.savefig(made, format=kind[1:], **how)
+        return with_palette(made) if kind == ".png" else made.getvalue()
+
+
+def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathlib.Path], force: bool) -> list[pathlib.Path]:
+    """Writes PNG and SVG. Raises what output raises."""
+    paths = [folder / f"{name}{kind}" for kind in (".png", ".svg")]
+    for path in paths:
+        output.check(path, inputs, force, output.is_picture)
+    contents = [content(figure, path.suffix) for path in paths]
     plt.close(figure)
     output.make_folder(folder)
-    for path, content in contents.items():
-        output.write(path, content)
-    return list(contents)
+    for path, made in zip(paths, contents):
+        output.write(path, made)
+    return paths

@@ -35,7 +35,8 @@ constexpr HelpLine environment[] = {
 };
 
 constexpr HelpLine files[] = {
-    {"*.json", "results: every raw sample, with machine, commit and verdicts; docs/results.md"},
+    {"*.json",
+     "results: every raw sample, with machine, commit and verdicts; docs/result-files.md"},
     {"results/baseline/", "what `smoke` holds this version to"},
     {"results/tuning/", "tuned values of known devices, also in the program"},
 };

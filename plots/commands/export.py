@@ -20,7 +20,7 @@ def parser() -> command.Parser:
         "customSmallerIsBetter: medians for github-action-benchmark. Times are nanoseconds.",
         [("bvhbench export peers.json --format csv --out peers.csv", "for a spreadsheet, R or pandas"),
          ("bvhbench export results --format google-benchmark", "all result files of a folder, to standard output")],
-        "docs/results.md")
+        "docs/result-files.md")
     words.add_argument("files", nargs="+", metavar="FILE", help="result files, or folders of them")
     words.add_argument("--format", type=format_named, required=True, help=NAMES)
     words.add_argument("--out", help="the file to write; default: standard output")

@@ -24,6 +24,7 @@ def parser() -> command.Parser:
         "docs/report.md")
     words.add_argument("files", nargs="*", metavar="FILE", help="result files, or folders of them")
     words.add_argument("-o", "--out", default="report.html", help="the page")
+    words.add_argument("--brief", action="store_true", help="the figures of `plot` in place of charts, and no samples: under 1 MB")
     words.add_argument("--scene", action="append", default=[],
                        help="small scenes to show: their triangles, the boxes of each level of a tree, and what collides")
     words.add_argument("--frame", type=int, default=0, help="of those scenes, from 0")
@@ -46,7 +47,7 @@ def main(words: list[str]) -> int:
             tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
         views = [view(arguments, scene, options, pathlib.Path(folder, str(number)))
                  for number, scene in enumerate(arguments.scene)]
-        return report.write(files, views, pathlib.Path(arguments.out), True)
+        return report.write(files, views, pathlib.Path(arguments.out), True, arguments.brief)
 
 
 def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[str]:

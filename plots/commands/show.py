@@ -11,7 +11,7 @@ from console import run as run_page
 def parser() -> command.Parser:
     words = command.Parser("show", "Print a result file as tables", "Prints what the command that wrote the file did.",
                            [("bvhbench show peers.json", "its tables"), ("bvhbench show out", "of every file below a folder"),
-                            ("bvhbench show peers.json --wide", "with all columns")], "docs/results.md")
+                            ("bvhbench show peers.json --wide", "with all columns")], "docs/result-files.md")
     words.add_argument("files", nargs="+", metavar="FILE", help="result files, or folders of them")
     return words
 

@@ -40,6 +40,14 @@ function runsTable(files) {
   return tableSection(data, 0);
 }
 
+/** Returns the figures that a brief page has in place of charts. */
+async function pictures(number) {
+  return (await jsonOf("pictures-" + number)).map(([name, svg]) => {
+    const src = URL.createObjectURL(new Blob([svg], {type: "image/svg+xml"}));
+    return element("figure", {class: "chart drawn"}, element("figcaption", {}, element("h3", {}, name)), element("img", {src, alt: ""}));
+  });
+}
+
 /** Creates a file's tables and charts the first time it is shown. */
 async function makeFile(number, head) {
   if (made.has(number)) {
@@ -50,8 +58,12 @@ async function makeFile(number, head) {
   const file = await jsonOf("file-" + number);
   file.cells.forEach((cell, place) => Object.assign(cell, {file: number, place}));
   part.querySelector(".verdicts").append(...verdictsOf(file.states));
-  const charts = [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)];
-  part.querySelector(".charts").append(...charts.filter(Boolean).map((chart) => chart.element));
+  const charts = document.getElementById("blob-pictures-" + number)
+    ? await pictures(number)
+    : [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)]
+        .filter(Boolean)
+        .map((chart) => chart.element);
+  part.querySelector(".charts").append(...charts);
   const tables = file.tables.map((table) => tableSection(table, number));
   const missing = file.tables.findIndex((table) => table.title.startsWith("Without") && !table.folded);
   if (missing >= 0) {

@@ -30,6 +30,8 @@ def builds(doc: Document) -> None:
     small, large = ([us(printed.cell(refined(exponent), name)) for name in ("oibvh-single-printed", "oibvh-multi")]
                     for exponent in (13, 16))
     doc.says("| as printed, {} times at 2^13, and {} times at 2^16", small[1] / small[0], large[0] / large[1])
+    doc.says("its trees take {} % of the bytes", 100 * sum(table1.cell(scene, "oibvh-multi").counters["tree_bytes"] for scene in scenes)
+             / sum(table1.cell(scene, "apetrei").counters["tree_bytes"] for scene in scenes))
     doc.says("| saves {} to {} % of its bytes |", *ends([100 - 100 * table1.cell(scene, "oibvh-multi").counters["tree_bytes"]
                                                   / table1.cell(scene, "perfect").counters["tree_bytes"] for scene in scenes]))
     doc.says("the padded tree takes {} to {} times the time of `oibvh-multi`",
@@ -58,6 +60,10 @@ def frames(doc: Document) -> None:
     peaks = [[sum(cell.counters["bvtt_peak_count"] for cell in file.frames(scene, asked)[1:]) for scene in SCENES]
              for asked in (BVTT, RADIX[0])]
     doc.says("| {} to {} % smaller than the entries", *ends([100 - 100 * one / other for one, other in zip(*peaks)]))
+    refitted, rebuilt = ([us(cell, "broad") for cell in rebuild.frames("cloth_ball_sim", asked)]
+                         for asked in (of_frames.REFIT, "group over oibvh-multi"))
+    doc.says("take {} of the time of those over the pipeline's rebuilt trees in the first frame, {} times in the last of {} (",
+             refitted[0] / rebuilt[0], refitted[-1] / rebuilt[-1], len(rebuilt))
     tracked = [file.frames(scene, asked) for scene in SCENES for asked in RADIX] + [rebuild.frames("cloth_ball_sim", asked)
                                                                                     for asked in RADIX[:2]]
     doc.says("| {} of {} frames of fronts", sum(those[-1].counters["restarts_count"] for those in tracked),
@@ -69,7 +75,7 @@ def frames(doc: Document) -> None:
 
     tree = ("bounds", "codes", "sort", "hierarchy", "refit")
     doc.says("| {} to {} %, {} to {} % |", *ends([share(scene, *tree) for scene in SELF]), *ends([share(scene, "broad") for scene in SELF]))
-    doc.says("| 95 % | {} %: all trees", share("unc_nbody, 15 between", *tree))
+    doc.says("| 95, 5 % | {}, {} %: all trees", *(share("unc_nbody, 15 between", *stages) for stages in (tree, ["broad"])))
     doc.says("fronts over one tree take {} to {} times as long", *over(times(RADIX[2]), times(RADIX[0])))
 
     table3, grid = File("h200/table3"), "hierarchical grid"
@@ -97,6 +103,9 @@ def trees(doc: Document) -> None:
              pairs[1][0], *pairs[2])
     doc.says("the Happy Buddha's costs are {} and {};", *(sah(table4, "happy_buddha_1087716", f"{name}, morton30-axis")
                                                          for name in ("apetrei-fused", "oibvh-multi")))
+    doc.says("as printed, by {} to {} % on three meshes",
+             *ends([100 * us(builders.cell(scene, "oibvh-single-printed"), "hierarchy")
+                    / us(builders.cell(scene, "oibvh-multi"), "hierarchy") - 100 for scene in ("bunny", "unc_cloth_ball", "happy_buddha_1087716")]))
     doc.says("the bunny's 144,046 triangles take {} µs where single work-items take {} (",
              *(us(builders.cell("bunny", name), "hierarchy") for name in ("oibvh-single", "oibvh-single-printed")))
 
