@@ -80,7 +80,7 @@ def by_family(found: Ranking) -> str:
 
 def families_of(run: results.Run) -> str:
     """Returns the table by_family of a run's cells of the experiment families; empty without such cells."""
-    return by_family(ranked([cell for cell in run.all_cells if cell.experiment == families.EXPERIMENT]))
+    return by_family(ranked([cell for cell in run.all_cells if cell.experiment == families.EXPERIMENT and cell.caches == "hot"]))
 
 
 def text(found: Ranking, all_: bool = False) -> str:
