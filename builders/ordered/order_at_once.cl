@@ -43,11 +43,12 @@ static inline Bounds posted_bounds(volatile global const ulong* posts, const uin
     return bounds;
 }
 
-/// Writes the boxes of a tile and returns to item 0 the bounds of all tiles, once these have been posted. `words` is scratch.
+/// Writes the boxes of a tile and returns to item 0 the bounds of all tiles, once these have been posted; fills `table` before it waits.
+/// `words` is scratch.
 static inline Bounds bounds_of_all(POINTS_PARAMETERS(), const global Face* faces,
                                    global float2* boxes, volatile global ulong* posts,
-                                   local uint* words, const uint first, const uint here,
-                                   const uint epoch)
+                                   local uint* words, local ushort* table, const uint first,
+                                   const uint here, const uint epoch)
 {
     local float2* const staged = (local float2*)words;
     local Bounds* const parts = (local Bounds*)words;
@@ -61,6 +62,7 @@ static inline Bounds bounds_of_all(POINTS_PARAMETERS(), const global Face* faces
     bounds = joined_in_group(bounds, parts);
     if (get_local_id(0) == 0)
         post_bounds(posts + SIDES * (uint)get_group_id(0), bounds, epoch);
+    fill_hilbert_table(table);
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);  // the group may read its boxes
     bounds = empty_bounds();
     for (uint tile = (uint)get_local_id(0); tile < tiles; tile += GROUP_SIZE)
@@ -78,11 +80,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void order_at_onc
 {
     local AtOnceScratch scratch;
     local Bounds common[1];
+    local ushort table[HILBERT_TABLE_SIZE];
     const AtOnce all = {states, posts, count, passes, epoch, codes, codes_out, keeps_codes};
     const uint first = (uint)get_group_id(0) * TILE, here = min(TILE, count - first);
     const Bounds bounds =
         bounds_of_all(POINTS, faces, boxes, states + 2ul * TILE_STATES((uint)get_num_groups(0)),
-                      scratch.words, first, here, epoch);
+                      scratch.words, table, first, here, epoch);
     if (get_local_id(0) == 0) {
         common[0] = bounds;
         if (get_group_id(0) == 0)
@@ -95,7 +98,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void order_at_onc
 #pragma unroll
     for (uint k = 0u; k < KEYS_PER_ITEM; ++k) {
         const bool is_real = ids[k] - first < here;
-        own.codes[k] = is_real ? code_of_box(load_box(boxes, ids[k]), common[0]) : ~(Code)0;
+        own.codes[k] = is_real ? code_of_box(load_box(boxes, ids[k]), common[0], table) : ~(Code)0;
         if (keeps_codes != 0u && is_real)
             codes[ids[k]] = own.codes[k];
     }

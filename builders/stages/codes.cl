@@ -15,11 +15,13 @@ kernel void codes_of_all(global const float2* restrict boxes,
                          const uint count, const uint dropped, const uint object_shift,
                          const uint bounds_apart)
 {
-    const uint k = (uint)get_global_id(0);
-    if (k < count) {
+    local ushort table[HILBERT_TABLE_SIZE];
+    fill_hilbert_table(table);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint k = (uint)get_global_id(0); k < count; k += (uint)get_global_size(0)) {
         const Aabb box = load_box(boxes, k);
         codes[k] = code_in_object(box, all_bounds, bounds_apart, SEVERAL_OBJECTS ? owners[k] : 0u,
-                                  object_shift, dropped);
+                                  object_shift, dropped, table);
     }
 }
 
@@ -29,8 +31,11 @@ kernel void codes_of_runs(global const float2* restrict boxes,
                           global const uint4* restrict runs, global Code* restrict codes,
                           const uint dropped, const uint object_shift, const uint bounds_apart)
 {
+    local ushort table[HILBERT_TABLE_SIZE];
+    fill_hilbert_table(table);
+    barrier(CLK_LOCAL_MEM_FENCE);
     const uint4 run = runs[get_group_id(0)];
     for (uint k = run.x + (uint)get_local_id(0); k < run.y; k += (uint)get_local_size(0))
         codes[k - run.w] = code_in_object(load_box(boxes, k), all_bounds, bounds_apart, run.z,
-                                          object_shift, dropped);
+                                          object_shift, dropped, table);
 }

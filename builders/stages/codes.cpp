@@ -6,9 +6,17 @@
 namespace bvhbench {
 namespace {
 
-/// Where digits are counted: few groups, since each adds all of its counts to those of the others.
-constexpr std::size_t counting_groups_per_unit = 4;
+/// Few: each group fills a table (code_by_table.clh), and where digits are counted adds its counts to those of the others.
+constexpr uint items_per_unit = 2048u;
 constexpr uint counting_group_size = 512;
+
+/// Returns the work-items of a launch for `count` boxes.
+std::size_t items(const Device& device, uint count, uint group_size)
+{
+    const std::size_t units = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    const std::size_t most = units * divided_up(items_per_unit, group_size);
+    return std::min(std::size_t{divided_up(count, group_size)}, most) * group_size;
+}
 
 /// Returns the distance between the bounds of consecutive objects, in elements: 0 if all objects share one.
 uint apart(const Buffer<Bounds>& bounds) { return bounds.size() > 1 ? 1 : 0; }
@@ -57,9 +65,9 @@ void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds
         return;
     set_arguments(kernel_, boxes, bounds, owners, codes, count, dropped_, kept_, apart(bounds));
     const bool by_groups = form_ == KernelForm::groups;
-    queue.launch(
-        kernel_, by_groups ? std::size_t{divided_up(count, group_size_)} * group_size_ : chunks_,
-        by_groups ? group_size_ : 1, static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
+    queue.launch(kernel_, by_groups ? items(programs_.device(), count, group_size_) : chunks_,
+                 by_groups ? group_size_ : 1,
+                 static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
 }
 
 void CodesStage::enqueue_counted(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
@@ -72,11 +80,8 @@ void CodesStage::enqueue_counted(const Buffer<Aabb>& boxes, const Buffer<Bounds>
         return;
     set_arguments(counted_kernel_, boxes, bounds, owners, codes, count, dropped_, kept_,
                   apart(bounds), counters, bits);
-    const std::size_t units = programs_.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-    const std::size_t groups = std::min(std::size_t{divided_up(count, counting_group_size)},
-                                        counting_groups_per_unit * units);
-    queue.launch(counted_kernel_, groups * counting_group_size, counting_group_size,
-                 static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
+    queue.launch(counted_kernel_, items(programs_.device(), count, counting_group_size),
+                 counting_group_size, static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
 }
 
 void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,

@@ -10,7 +10,8 @@
 // Boxes that a work-item reads before it computes their codes, so that the reads overlap.
 #define READ_AHEAD 2u
 
-/// Writes the codes of all `count` boxes, of `bits` bits, and adds their digits' counts to `counters`.
+/// Writes the codes of all `count` boxes, of `bits` bits, and adds their digits' counts to `counters`. From the last box on: those that
+/// the stage `bounds` wrote last are still in a cache, as are the codes of the first boxes when the sort begins with them.
 kernel void codes_counted(global const float2* restrict boxes,
                           global const Bounds* restrict all_bounds,
                           global const uint* restrict owners, global Code* restrict codes,
@@ -19,21 +20,23 @@ kernel void codes_counted(global const float2* restrict boxes,
                           const uint bits)
 {
     local uint counts[MOST_PASSES * DIGITS];
+    local ushort table[HILBERT_TABLE_SIZE];
     const uint passes = passes_of(bits);
+    fill_hilbert_table(table);
     clear_counts(counts, passes);
     const uint stride = (uint)get_global_size(0);
     for (uint first = (uint)get_global_id(0); first < count; first += READ_AHEAD * stride) {
         Aabb own[READ_AHEAD];
 #pragma unroll
         for (uint k = 0u; k < READ_AHEAD; ++k)
-            own[k] = load_box(boxes, min(first + k * stride, count - 1u));
+            own[k] = load_box(boxes, count - 1u - min(first + k * stride, count - 1u));
 #pragma unroll
         for (uint k = 0u; k < READ_AHEAD; ++k) {
-            const uint at = first + k * stride;
-            if (at < count) {
+            if (first + k * stride < count) {
+                const uint at = count - 1u - (first + k * stride);
                 const Code code =
                     code_in_object(own[k], all_bounds, bounds_apart,
-                                   SEVERAL_OBJECTS ? owners[at] : 0u, object_shift, dropped);
+                                   SEVERAL_OBJECTS ? owners[at] : 0u, object_shift, dropped, table);
                 codes[at] = code;
                 count_code(counts, code, passes);
             }

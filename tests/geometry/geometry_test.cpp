@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include "geometry/aabb.h"
 #include "geometry/bits.h"
 #include "geometry/hash.h"
 #include "geometry/hilbert.h"
+#include "geometry/hilbert_steps.h"
 #include "geometry/mesh.h"
 
 namespace bvhbench {
@@ -140,6 +142,32 @@ TEST(Hilbert, StartsInOneCornerAndEndsAlongX)
         const Curve curve = whole_curve(bits);
         EXPECT_EQ(distance(curve.cells.front(), {0, 0, 0}), 0u);
         EXPECT_EQ(distance(curve.cells.back(), {(1u << bits) - 1, 0, 0}), 0u);
+    }
+}
+
+/// Returns the code as builders/stages/code_by_table.clh computes it.
+ulong code_by_steps(GridCell cell, uint bits)
+{
+    const ulong octants = morton_63(cell);
+    ulong code = 0;
+    uint steps = hilbert_first_state(bits) << 6;
+    for (uint pair = divided_up(bits, 2u); pair > 0; --pair) {
+        steps = hilbert_two_steps(steps >> 6, octants >> 6 * (pair - 1) & 63);
+        code = code << 6 | (steps & 63);
+    }
+    return code;
+}
+
+TEST(Hilbert, StepsGiveTheSameCodesAsTurns)
+{
+    std::mt19937 random(1);
+    for (uint bits = 1; bits <= 21; ++bits) {
+        const uint last = (1u << bits) - 1;
+        for (int k = 0; k < 20'000; ++k) {
+            const auto x = static_cast<uint>(random()), y = static_cast<uint>(random());
+            const GridCell cell = {x & last, y & last, static_cast<uint>(random()) & last};
+            ASSERT_EQ(code_by_steps(cell, bits), morton_63(hilbert_cell(cell, bits))) << bits;
+        }
     }
 }
 
