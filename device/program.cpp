@@ -52,17 +52,11 @@ cl::Kernel Programs::kernel(std::string_view path, const char* name,
 cl::Kernel Programs::kernel(std::string_view path, const char* name,
                             std::span<const Define> defines, Optimise optimise)
 {
-    return compiled(device_.sources.flatten({path}), path, name, defines, optimise);
+    return kernel({}, path, name, defines, optimise);
 }
 
 cl::Kernel Programs::kernel(std::string_view header, std::string_view path, const char* name,
                             std::span<const Define> defines, Optimise optimise)
-{
-    return compiled(device_.sources.flatten({header, path}), path, name, defines, optimise);
-}
-
-cl::Kernel Programs::compiled(const std::string& text, std::string_view path, const char* name,
-                              std::span<const Define> defines, Optimise optimise)
 {
     std::string options = "-cl-std=" + dialect_;
     if (optimise == Optimise::on_gpus && device_.is_cpu())
@@ -72,10 +66,14 @@ cl::Kernel Programs::compiled(const std::string& text, std::string_view path, co
     for (const Define& define : defines)
         options += " -D " + std::string(define.name) + '=' + std::to_string(define.value) + 'u';
 
-    const std::string key = options + '\n' + text;
+    const std::string key = options + '\n' + std::string(header) + '\n' + std::string(path);
     auto found = programs_.find(key);
-    if (found == programs_.end())
+    if (found == programs_.end()) {
+        const Sources& sources = device_.sources;
+        const std::string text =
+            header.empty() ? sources.flatten({path}) : sources.flatten({header, path});
         found = programs_.emplace(key, build(path, text, options)).first;
+    }
     const cl::Kernel kernel(found->second, name);
     device_.require_group(std::string(path) + ": " + name,
                           kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(device_.cl)[0],

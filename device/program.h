@@ -32,7 +32,7 @@ enum class Optimise {
     on_gpus,
 };
 
-/// The compiled programs of one device, cached by text and options. Not thread-safe.
+/// The compiled programs of one device, cached by files and options: a file is read once. Not thread-safe.
 class Programs {
 public:
     /// `dialect` is the value of -cl-std=. Every kernel must compile as CL1.2 and as CL3.0.
@@ -58,15 +58,13 @@ public:
     std::int64_t compile_ns() const { return compile_ns_; }
 
 private:
-    cl::Kernel compiled(const std::string& text, std::string_view path, const char* name,
-                        std::span<const Define> defines, Optimise optimise);
     cl::Program build(std::string_view path, const std::string& text, const std::string& options);
     cl::Program built(const std::string& text, const std::string& options) const;
 
     const Device& device_;
     std::string dialect_;
     bool declares_builtins_;                       ///< whether device/builtins.clh precedes texts
-    std::map<std::string, cl::Program> programs_;  ///< by options and text
+    std::map<std::string, cl::Program> programs_;  ///< by options and files
     std::int64_t compile_ns_ = 0;
 };
 

@@ -47,16 +47,17 @@ Arena scratch_of(const Device& device, std::size_t bytes)
 
 }  // namespace
 
-CopyRate measure_copy_rate(Programs& programs, Queue& queue)
+CopyRate measure_copy_rate(Programs& programs, Queue& queue, std::size_t most_bytes)
 {
     const Device& device = programs.device();
     constexpr std::size_t most_samples = 9, fewest_samples = 3;
     constexpr std::int64_t enough_ns = 100'000'000;
     // 1 GiB on a GPU. On a CPU as large as the cache, so that both buffers are twice as large, and at most 512 MiB, since even a
     // run of one small build waits for this measurement.
-    const std::size_t count = device.is_cpu()
-                                  ? vectors_past_caches(device, 1, std::size_t{512} << 20)
-                                  : (std::size_t{1} << 30) / sizeof(cl_uint4);
+    const std::size_t enough = device.is_cpu()
+                                   ? vectors_past_caches(device, 1, std::size_t{512} << 20)
+                                   : (std::size_t{1} << 30) / sizeof(cl_uint4);
+    const std::size_t count = std::min(enough, most_bytes / sizeof(cl_uint4));
     const std::size_t bytes = count * sizeof(cl_uint4);
     const std::size_t global = device.is_cpu() ? 4 * compute_units(device) : count;
     const std::size_t local = device.is_cpu() ? 1 : 256;

@@ -3,6 +3,8 @@
 // Measured limits that stage times are compared with, and work that runs between samples to make them comparable.
 #pragma once
 
+#include <limits>
+
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -17,8 +19,10 @@ struct CopyRate {
     int samples = 0;
 };
 
-/// Measures the rate of copying one large buffer to another with a kernel that copies 16 bytes at a time.
-CopyRate measure_copy_rate(Programs& programs, Queue& queue);
+/// Measures the rate of copying one large buffer to another with a kernel that copies 16 bytes at a time. The buffers have no more
+/// than `most_bytes`, which must be 16 or more.
+CopyRate measure_copy_rate(Programs& programs, Queue& queue,
+                           std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
 /// The measured cost of a launch with almost no work.
 struct LaunchCost {

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy
 
 from cells import Cell, counted, elapsed_ns, grouped, median, whole_ns
+from comparing.intervals import rank_below
 from results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
@@ -103,10 +104,8 @@ def values_of(samples: Iterable[dict], objective: str) -> numpy.ndarray:
 
 def ends_of(values: numpy.ndarray) -> tuple[float, float]:
     """Returns the order statistics that hold the median with a probability of 95 %, or the range of fewer than 6 values."""
-    from scipy.stats import binom
-
     ascending = numpy.sort(values)
-    rank = max(1, int(binom.ppf(ERROR / 2, len(values), 0.5)))
+    rank = max(1, rank_below(len(values), ERROR))
     return float(ascending[rank - 1]), float(ascending[len(values) - rank])
 
 

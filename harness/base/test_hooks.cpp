@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 #include "geometry/error.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr const char* variable = "BVHBENCH_SLOW";
 constexpr const char* stop_variable = "BVHBENCH_STOP";
+constexpr const char* copy_variable = "BVHBENCH_COPY_BYTES";
 
 double factor_of(std::string_view name)
 {
@@ -52,6 +54,7 @@ std::map<std::string, std::string> test_hooks()
 {
     factor_of({});  // throws BadUsage for text that cannot be parsed
     stops_at({}, 0);
+    most_copied();
     std::map<std::string, std::string> set;
     for (const char* name : {variable, stop_variable})
         if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
@@ -65,6 +68,18 @@ void slow_down(std::span<StageTime> stages, std::string_view name)
     for (StageTime& stage : stages)
         for (std::int64_t* ns : {&stage.busy_ns, &stage.span_ns, &stage.wall_ns, &stage.start_ns})
             *ns = std::llround(static_cast<double>(*ns) * factor);
+}
+
+std::size_t most_copied()
+{
+    const char* most = std::getenv(copy_variable);
+    if (most == nullptr || *most == '\0')
+        return std::numeric_limits<std::size_t>::max();
+    std::size_t bytes = 0;
+    if (!RE2::FullMatch(most, "(\\d+)", &bytes) || bytes < 16)
+        throw BadUsage(std::string(copy_variable) + " must be a number of bytes from 16 on, not '" +
+                       most + "'");
+    return bytes;
 }
 
 void stop_at(std::string_view stage, unsigned rank)

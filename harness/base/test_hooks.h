@@ -2,8 +2,10 @@
 //
 // Environment variables with which tests lengthen reported times, to check that comparisons detect it, or stop a rank of a cluster
 // at a stage, to kill it there. A run with any of them records them in its result file (`test_hooks`). Such a file is not plotted, and is compared only on request.
+// Another one shortens the start of a run.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
@@ -19,6 +21,10 @@ std::map<std::string, std::string> test_hooks();
 /// Multiplies the stage times of the builder or collider called `name` by its factor in BVHBENCH_SLOW, a comma-separated list
 /// such as "oibvh-multi:1.10". Throws BadUsage if the variable cannot be parsed.
 void slow_down(std::span<StageTime> stages, std::string_view name);
+
+/// Returns BVHBENCH_COPY_BYTES, the most bytes of a buffer that the copy rate is measured with; no limit if it is not set. The result
+/// file has the size taken (`copy_rate_buffer_bytes`). Throws BadUsage if it is no number from 16 on.
+std::size_t most_copied();
 
 /// Stops this process by SIGSTOP if BVHBENCH_STOP, as "exchange:1", names this stage and rank of `cluster`. Throws BadUsage
 /// if the variable cannot be parsed.

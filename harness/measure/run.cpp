@@ -8,6 +8,7 @@
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"
+#include "harness/base/test_hooks.h"
 #include "harness/judge/check.h"
 #include "harness/judge/metrics.h"
 #include "harness/measure/collide.h"
@@ -113,7 +114,7 @@ Json measured_facts(Session& session, std::vector<std::string> command, const No
 {
     Json facts = run_facts(session.device(), std::move(command), costs);
     const std::string failure = reason_of_failure([&] {
-        const CopyRate rate = measure_copy_rate(session.programs(), session.queue());
+        const CopyRate rate = measure_copy_rate(session.programs(), session.queue(), most_copied());
         if (rate.bytes_per_s > 0) {
             facts["copy_rate_bytes_per_s"] = rate.bytes_per_s;
             facts["copy_rate_buffer_bytes"] = rate.buffer_bytes;

@@ -33,7 +33,6 @@ class Bvhbench(CMakePackage):
         depends_on("cgal@5.5:5")
         depends_on("python@3.11:", type="run")
         depends_on("py-numpy", type="run")
-        depends_on("py-scipy", type="run")
         depends_on("py-matplotlib", type="run")
         depends_on("py-pandas", type="run")
         depends_on("py-plotly", type="run")

@@ -45,9 +45,11 @@ def samples_per_independent_one(in_order: numpy.ndarray) -> float:
 def rank_below(count: int, error: float) -> int:
     """Returns the largest k for which fewer than k of `count` independent values are below their median with a probability of at
     most `error` / 2; 0 if `count` is too small."""
-    from scipy.stats import binom
-
-    return int(binom.ppf(error / 2, count, 0.5)) if count > 0 else 0
+    if count == 0:
+        return 0
+    factorials = numpy.cumsum(numpy.log(numpy.maximum(numpy.arange(count + 1), 1)))  # their logarithms
+    shares = numpy.exp(factorials[-1] - factorials - factorials[::-1] - count * math.log(2))  # with k values below the median
+    return int(numpy.searchsorted(numpy.cumsum(shares), error / 2))
 
 
 def median_interval(in_order: numpy.ndarray, error: float) -> Interval:

@@ -139,6 +139,16 @@ def test_quality_has_no_number_where_it_has_no_value():
     assert cell["counters"]["depth_max"] == 1
 
 
+def test_the_copy_rate_is_that_of_large_buffers_or_as_small_as_told():
+    words = ("build", "--builder", "perfect", "--scene", "soup:5", "--samples", "1", "--json", "copied.json", "--force")
+    for told, least, most in (("", 64 << 20, 512 << 20), ("4096", 4096, 4096)):
+        expect(0, *words, BVHBENCH_COPY_BYTES=told)
+        facts = valid("copied.json")["run"]
+        assert least <= facts["copy_rate_buffer_bytes"] <= most and facts["copy_rate_bytes_per_s"] > 0, facts
+    for wrong in ("15", "-1", "1M"):
+        expect(2, *words, says=f"BVHBENCH_COPY_BYTES must be a number of bytes from 16 on, not '{wrong}'", BVHBENCH_COPY_BYTES=wrong)
+
+
 def test_run_and_show_agree():
     experiment("few.json", scenes=["torus:2048", "soup:1000", "soup:1"], builders=["perfect", "karras", "oibvh-reference"], samples=2)
     pathlib.Path("folder").mkdir()
