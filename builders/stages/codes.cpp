@@ -6,8 +6,9 @@
 namespace bvhbench {
 namespace {
 
-/// Few: each group fills a table (code_by_table.clh), and where digits are counted adds its counts to those of the others.
-constexpr uint items_per_unit = 2048u;
+/// No more than run at a time: each group fills a table (code_by_table.clh), and where digits are counted adds its counts to those of the
+/// others.
+constexpr uint items_per_unit = 1536;
 constexpr uint counting_group_size = 512;
 
 /// Returns the work-items of a launch for `count` boxes.
