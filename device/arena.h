@@ -41,6 +41,16 @@ public:
         return {carve(size * sizeof(T), use), size};
     }
 
+    /// Takes tree memory for `size` values and scratch behind it for as many, in one piece.
+    template <class T>
+    Buffer<T> take_twice(std::size_t size)
+    {
+        const Buffer<T> piece = take<T>(2 * size, Use::scratch);
+        used_.scratch_bytes -= size * sizeof(T);
+        used_.tree_bytes += size * sizeof(T);
+        return piece;
+    }
+
     /// Returns the bytes handed out so far.
     const Footprint& used() const { return used_; }
 

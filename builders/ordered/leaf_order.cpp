@@ -145,7 +145,7 @@ void LeafOrder::enqueue_update(const Input& input, Queue& queue)
     bounds_.enqueue(input, updated_, queue);
     if (updated_.lined_up_count() == 0)
         return;
-    codes_->enqueue(boxes(), grid_bounds(), updated_, sort_->unsorted_codes(), queue);
+    codes_->enqueue(boxes(), grid_bounds(), updated_, sort_->unsorted_codes_aside(), queue);
     sort_->enqueue_aside(queue, updated_.lined_up_triangles());
     set_arguments(put_runs_, sort_->ids_aside(), updated_.runs(), ids_);
     queue.launch(put_runs_, updated_.lined_up_count() * updated_.group(), updated_.group(),

@@ -85,7 +85,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void order_at_onc
     const uint first = (uint)get_group_id(0) * TILE, here = min(TILE, count - first);
     const Bounds bounds =
         bounds_of_all(POINTS, faces, boxes, states + 2ul * TILE_STATES((uint)get_num_groups(0)),
-                      scratch.words, table, first, here, epoch);
+                      scratch.tile.words, table, first, here, epoch);
     if (get_local_id(0) == 0) {
         common[0] = bounds;
         if (get_group_id(0) == 0)

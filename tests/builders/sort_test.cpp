@@ -266,6 +266,47 @@ TEST(RadixSort, InOneLaunchSortsMoreOftenThanItsMarksLast)
     bench().queue.finish();
 }
 
+/// An update orders some objects anew while the ids of the last sort are still in use.
+TEST(RadixSort, AsideKeepsTheIdsOfTheSortBefore)
+{
+    for (const bool keeps_codes : {false, true})
+        for (const unsigned bits : {8, 24, 30, 32, 48, 63}) {
+            SCOPED_TRACE(std::to_string(bits) + (keeps_codes ? " bits, kept" : " bits"));
+            RadixSort sort(bench().programs, bits, sweeping(2));
+            reserve([&](Arena& arena) {
+                sort.plan(arena, 200, keeps_codes);
+                sort.plan_aside(arena);
+            });
+            sort.prepare(bench().queue.cl());
+            const std::vector<ulong> all = hard_codes(200, bits)[0].codes;
+            const std::vector<ulong> some = hard_codes(101, bits)[0].codes;
+            enqueue(sort, words_of(all, bits));
+            Buffer<uint> unsorted = sort.unsorted_codes_aside();
+            unsorted.upload(bench().queue.cl(), words_of(some, bits));
+            sort.enqueue_aside(bench().queue, static_cast<uint>(some.size()));
+            bench().queue.finish();
+            EXPECT_EQ(from_device(sort.ids()), host_sorted_ids(all));
+            std::vector<uint> aside = from_device(sort.ids_aside());
+            aside.resize(some.size());
+            EXPECT_EQ(aside, host_sorted_ids(some));
+        }
+}
+
+/// Words of 64 bits need no more memory than codes and ids apart.
+TEST(RadixSort, TakesAsMuchMemoryWhetherCodesAreKeptOrNot)
+{
+    for (const unsigned bits : {8, 24, 30}) {
+        Footprint footprints[2];
+        for (const bool keeps_codes : {false, true}) {
+            Arena arena = Arena::measuring(bench().device);
+            RadixSort sort(bench().programs, bits, sweeping(2));
+            sort.plan(arena, 1024, keeps_codes);
+            footprints[keeps_codes ? 1 : 0] = arena.used();
+        }
+        EXPECT_EQ(footprints[0], footprints[1]) << bits;
+    }
+}
+
 /// A pass of three launches sorts by one byte.
 TEST(RadixSort, TakesNoMorePassesThanACodeHasBytes)
 {

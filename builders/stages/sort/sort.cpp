@@ -91,14 +91,21 @@ void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
     size_ = size;
     const std::size_t words = size * code_words(code_bits_);
     const std::size_t digits = std::size_t{1} << digit_bits_;
+    if (waiting_)
+        waiting_->plan(arena, size, keeps_codes);
+    moves_words_ = waiting_ && waiting_->sorts_words();
+    if (moves_words_) {
+        ids_[passes_ % 2] = {arena.take_twice<uint>(size).cl(), size};
+        ids_[(passes_ + 1) % 2] = {arena.take<uint>(2 * size, Use::scratch).cl(), size};
+        codes_ = ids_;
+        return;
+    }
     ids_[passes_ % 2] = arena.take<uint>(size, Use::tree);
     ids_[(passes_ + 1) % 2] = arena.take<uint>(size, Use::scratch);
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
-    if (waiting_) {
-        waiting_->plan(arena, size, keeps_codes);
+    if (waiting_)
         return;
-    }
     counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
     totals_ = arena.take<uint>(digits, Use::scratch);
 }
@@ -109,28 +116,34 @@ void RadixSort::prepare(const cl::CommandQueue& queue)
         waiting_->prepare(queue);
 }
 
-void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
+void RadixSort::plan_aside(Arena& arena)
+{
+    aside_ = {arena.take<uint>(moves_words_ ? 2 * size_ : size_, Use::scratch).cl(), size_};
+}
 
 void RadixSort::enqueue(Queue& queue, bool is_counted)
 {
-    enqueue_passes(queue, static_cast<uint>(size_), ids(), is_counted);
+    enqueue_passes(queue, static_cast<uint>(size_), codes_, ids(), is_counted);
 }
 
 void RadixSort::enqueue_aside(Queue& queue, uint count)
 {
     assert(count > 0 && count <= aside_.size());
-    enqueue_passes(queue, count, aside_, false);
+    std::array<Buffer<uint>, 2> codes = codes_;
+    if (moves_words_)
+        codes[passes_ % 2] = aside_;
+    enqueue_passes(queue, count, codes, aside_, false);
 }
 
-void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
-                               bool is_counted)
+void RadixSort::enqueue_passes(Queue& queue, uint count, const std::array<Buffer<uint>, 2>& codes,
+                               const Buffer<uint>& result, bool is_counted)
 {
     queue.begin("sort");
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
     if (waiting_) {
-        waiting_->enqueue(codes_, result, other, count, is_counted, queue);
+        waiting_->enqueue(codes, result, other, count, is_counted, queue);
         return;
     }
     for (uint pass = 0; pass < passes_; ++pass) {

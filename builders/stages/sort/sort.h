@@ -47,8 +47,13 @@ public:
     /// Takes the additional buffer of `enqueue_aside`.
     void plan_aside(Arena& arena);
 
-    /// Input, code_words(code_bits) words per code; `enqueue` overwrites it.
+    /// Input, code_words(code_bits) words per code; `enqueue` overwrites it. It may share memory with `ids`.
     const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
+    /// Input of `enqueue_aside`, which overwrites it.
+    const Buffer<uint>& unsorted_codes_aside() const
+    {
+        return moves_words_ && passes_ % 2 == 0 ? aside_ : codes_[0];
+    }
 
     /// True if the planned sort needs the counts of all digits, so that who makes the codes may count them.
     bool takes_counts() const { return waiting_ && waiting_->takes_counts(); }
@@ -85,7 +90,8 @@ public:
 
 private:
     uint run_count(std::size_t size) const;
-    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result, bool is_counted);
+    void enqueue_passes(Queue& queue, uint count, const std::array<Buffer<uint>, 2>& codes,
+                        const Buffer<uint>& result, bool is_counted);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
                       const Buffer<uint>& ids_out);
 
@@ -97,6 +103,8 @@ private:
     cl::Kernel count_, scan_, scatter_;   ///< If groups do not wait.
     std::optional<WaitingSort> waiting_;  ///< If groups wait.
     std::size_t size_ = 0;
+    /// True if passes move words of 64 bits. Then codes_ and ids_ are the same two buffers, with room for such words.
+    bool moves_words_ = false;
     std::array<Buffer<uint>, 2> codes_;  ///< Pass p reads codes_[p % 2] and writes the other.
     std::array<Buffer<uint>, 2> ids_;    ///< Pass p reads one and writes the other.
     Buffer<uint> aside_;

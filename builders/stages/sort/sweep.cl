@@ -43,21 +43,18 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     const uint pass, const uint epoch, const uint packs, const uint id_bits, const uint is_last)
 {
     local Scratch scratch;
-    if (pass == 0u && get_group_id(0) == 0u)
-        for (uint k = (uint)get_local_id(0); k < COUNTERS; k += GROUP_SIZE)
-            other_counters[k] = 0u;
     const uint shift = DIGIT_BITS * pass;
-    const uint tile = next_tile(&scratch, counters, pass);
+    const uint tile = next_tile(&scratch, counters, other_counters, pass);
     const uint here = min(TILE, count - tile * TILE);
     OwnCodes own;
     uint ids[KEYS_PER_ITEM], to[KEYS_PER_ITEM];
     load_codes(&own, codes_in, tile * TILE, here);
     load_ids(ids, ids_in, tile * TILE, here, pass == 0u);
-    find_places(&own, &scratch, counters, states, tile, pass, shift, epoch, is_last != 0u);
-    sort_codes(&own, to, scratch.words, scratch.starts, scratch.places, shift);
+    sort_tile(&own, &scratch, counters, states, tile, pass, shift, epoch, is_last != 0u);
+    take_codes(&own, to, &scratch.tile, scratch.places, shift);
     if (packs == 0u)
         write_codes(&own, to, codes_out, here);
-    sort_ids(&own, ids, scratch.words);
+    sort_ids(&own, ids, &scratch.tile);
     if (packs == 0u) {
         write_ids(ids, to, ids_out, here);
         return;

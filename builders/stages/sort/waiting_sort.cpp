@@ -25,6 +25,9 @@ constexpr uint last_post_epoch = (1u << (64 - 24 - post_id_bits)) - 1;
 
 constexpr std::size_t bounds_words = sizeof(Bounds) / sizeof(float);  ///< SIDES of order_at_once.cl
 
+/// Local memory for a tile of words of 64 bits. A group has 48 KiB, of which the digits' tables take 3.
+constexpr uint wide_tile_bytes = 40 << 10;
+
 constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
 
 /// Fewest keys per work-item in one launch: with fewer, there are more groups, which wait for each other.
@@ -65,6 +68,18 @@ cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) co
     return programs_.kernel(path, name, all, Optimise::on_gpus);
 }
 
+/// Returns the kernel of a pass over words.
+cl::Kernel WaitingSort::word_kernel(uint pass, uint keys) const
+{
+    const bool is_last = pass + 1 == passes_;
+    std::vector<Define> all = defines(keys);
+    all.push_back({"CODE_WORDS", pass < narrow_pass_ ? 2u : 1u});
+    all.push_back({"READS_CODES", pass == 0 ? 1u : 0u});
+    all.push_back({"WRITES", is_last ? 0u : pass + 1 == narrow_pass_ ? 2u : 1u});
+    return programs_.kernel("builders/stages/sort/sweep_words.cl", "sweep_words", all,
+                            Optimise::on_gpus);
+}
+
 cl::Kernel WaitingSort::beginning_with(const char* path, const char* name,
                                        std::span<const Define> more) const
 {
@@ -73,13 +88,13 @@ cl::Kernel WaitingSort::beginning_with(const char* path, const char* name,
     return programs_.kernel(path, name, all, Optimise::on_gpus);
 }
 
-/// Returns how many of the last passes find an id and the digits of the code that are left in one word.
-uint WaitingSort::passes_of_words() const
+/// Returns the first pass before which an id and the digits of the code that are left fit into `bits`, or `passes_`.
+uint WaitingSort::first_pass_within(uint bits) const
 {
     for (uint pass = 1; pass < passes_; ++pass)
-        if (code_bits_ - pass * tile_digit_bits + id_bits_ <= 32 * code_words_)
-            return passes_ - pass;
-    return 0;
+        if (code_bits_ - pass * tile_digit_bits + id_bits_ <= bits)
+            return pass;
+    return passes_;
 }
 
 void WaitingSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
@@ -92,7 +107,7 @@ void WaitingSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
     const auto count = static_cast<uint>(size);
     size_ = count;
     id_bits_ = ceil_log2(std::max(count, 1u));
-    word_passes_ = keeps_codes ? 0 : passes_of_words();
+    pair_passes_ = keeps_codes ? passes_ : sorts_words() ? 0 : first_pass_within(64);
     if (is_at_once_)
         plan_at_once(arena, count);
     else
@@ -113,11 +128,15 @@ void WaitingSort::plan_at_once(Arena& arena, uint count)
 
 void WaitingSort::plan_sweeps(Arena& arena, uint count)
 {
-    tile_ = group_size_ * keys_;
-    count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys_);
-    sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys_);
-    if (word_passes_ > 0)
-        sort_words_ = kernel("builders/stages/sort/sweep_words.cl", "sweep_words", keys_);
+    const uint most_keys = wide_tile_bytes / uint{sizeof(ulong)} / group_size_;
+    const uint keys = sorts_words() ? std::min(keys_, most_keys) : keys_;
+    tile_ = group_size_ * keys;
+    count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys);
+    if (pair_passes_ > 0)
+        sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys);
+    narrow_pass_ = code_words_ == 1 ? first_pass_within(32) : passes_;
+    for (uint pass = pair_passes_; pass < passes_; ++pass)
+        sort_words_[pass] = word_kernel(pass, keys);
     for (Buffer<uint>& counters : counters_)
         counters = arena.take<uint>(most_tile_passes * (digits + 1), Use::scratch);
     states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * digits, Use::scratch);
@@ -207,22 +226,24 @@ void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<u
                      code_bytes);
     }
     const std::size_t work_items = std::size_t{tiles} * group_size_;
-    const uint first_of_words = passes_ - word_passes_;
-    for (uint pass = 0; pass < first_of_words; ++pass) {
+    for (uint pass = 0; pass < pair_passes_; ++pass) {
         const bool is_even = pass % 2 == 0;
-        const uint packs = word_passes_ > 0 && pass + 1 == first_of_words ? 1 : 0;
+        const uint packs = pass + 1 == pair_passes_ && pair_passes_ < passes_ ? 1 : 0;
         set_arguments(sort_, codes[pass % 2], is_even ? ids_a : ids_b, codes[(pass + 1) % 2],
                       is_even ? ids_b : ids_a, counters, counters_[turn_], states_, count, pass,
                       epoch_ + pass, packs, id_bits_, pass + 1 == passes_ ? 1u : 0u);
         queue.launch(sort_, work_items, group_size_,
                      2 * code_bytes + ((pass == 0 ? 1 : 2) - packs) * id_bytes);
     }
-    for (uint pass = first_of_words; pass < passes_; ++pass) {
-        const uint is_last = pass + 1 == passes_ ? 1 : 0;
-        set_arguments(sort_words_, codes[pass % 2], codes[(pass + 1) % 2], result, counters,
-                      states_, count, pass, epoch_ + pass, first_of_words, id_bits_, is_last);
-        queue.launch(sort_words_, work_items, group_size_,
-                     code_bytes + (is_last != 0 ? id_bytes : code_bytes));
+    for (uint pass = pair_passes_; pass < passes_; ++pass) {
+        const bool is_last = pass + 1 == passes_;
+        const uint first_pass = pass >= narrow_pass_ ? narrow_pass_ : pair_passes_;
+        set_arguments(sort_words_[pass], codes[pass % 2], is_last ? result : codes[(pass + 1) % 2],
+                      counters, counters_[turn_], states_, count, pass, epoch_ + pass, first_pass,
+                      id_bits_);
+        const auto words = [&](uint at) { return at == 0 || at >= narrow_pass_ ? 1 : 2; };
+        queue.launch(sort_words_[pass], work_items, group_size_,
+                     id_bytes * (words(pass) + (is_last ? 1 : words(pass + 1))));
     }
 }
 

@@ -29,8 +29,8 @@ public:
     WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
                 uint most_keys_at_once);
 
-    /// Takes the buffers for `size` pairs. Without `keeps_codes`, pairs become words of a code's size as soon as an id and the digits
-    /// of the code that are left fit into one.
+    /// Takes the buffers for `size` pairs. Without `keeps_codes`, pairs become words of 64 bits, and then of 32, as soon as an id and
+    /// the digits of the code that are left fit into one.
     void plan(Arena& arena, std::size_t size, bool keeps_codes);
 
     /// Returns a kernel for the planned sort at once that begins with what comes before the sort, compiled with `defines` in
@@ -45,6 +45,9 @@ public:
 
     /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
+
+    /// True if all passes move words, at first of 64 bits: codes' buffers need room for these, and no other ids are needed.
+    bool sorts_words() const { return code_words_ == 1 && !keeps_codes_ && !is_at_once_; }
 
     /// True if all passes of the planned sort are in one launch.
     bool is_at_once() const { return is_at_once_; }
@@ -62,7 +65,8 @@ public:
 private:
     std::vector<Define> defines(uint keys) const;
     cl::Kernel kernel(const char* path, const char* name, uint keys) const;
-    uint passes_of_words() const;
+    cl::Kernel word_kernel(uint pass, uint keys) const;
+    uint first_pass_within(uint bits) const;
     void plan_at_once(Arena& arena, uint count);
     void plan_sweeps(Arena& arena, uint count);
     void next_epochs(Queue& queue);
@@ -77,9 +81,11 @@ private:
     bool keeps_codes_ = true,
          is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0, size_ = 0;
-    cl::Kernel count_, sort_, sort_words_;
-    uint id_bits_ = 0;      ///< Of a word.
-    uint word_passes_ = 0;  ///< The last passes, which sort words.
+    cl::Kernel count_, sort_;
+    std::array<cl::Kernel, most_tile_passes> sort_words_;  ///< By pass.
+    uint id_bits_ = 0;                                     ///< Of a word.
+    uint pair_passes_ = 0;  ///< First passes, over codes and ids apart; the others sort words.
+    uint narrow_pass_ = 0;  ///< From this pass on, words have 32 bits.
     uint epoch_ = 1;        ///< Epoch of the next pass.
     uint turn_ = 0;         ///< Index of the counters of the next sort.
     std::array<Buffer<uint>, 2>
