@@ -108,6 +108,14 @@ AtSignal::AtSignal(std::function<void()> done, std::string said)
     actions.push_back(this);
 }
 
+AtSignal::AtSignal(const std::function<void()>& begin, std::function<void()> done)
+    : work(std::move(done))
+{
+    const std::lock_guard lock(mutex);
+    begin();
+    actions.push_back(this);
+}
+
 AtSignal::~AtSignal()
 {
     const std::lock_guard lock(mutex);

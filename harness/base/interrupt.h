@@ -24,6 +24,9 @@ public:
     /// `work` runs on the signal thread, concurrently with the thread that made this object. `kept` is appended to the printed
     /// sentence, as in "finished cells are kept". If `work` throws, its error is printed in place of `kept`.
     explicit AtSignal(std::function<void()> work, std::string kept = {});
+
+    /// Calls `begin` before it registers the work, and no signal ends the process in between.
+    AtSignal(const std::function<void()>& begin, std::function<void()> work);
     ~AtSignal();
     AtSignal(const AtSignal&) = delete;
     AtSignal& operator=(const AtSignal&) = delete;

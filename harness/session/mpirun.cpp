@@ -152,26 +152,25 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words, double time
     const std::string columns = "COLUMNS=" + std::to_string(width == 0 ? no_terminal : width);
     std::cout.flush();
     adopt_descendants();
-    Child child(
-        {.path = command.front(),
-         .words = command,
-         .environment = {columns, "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
-                         "OMPI_MCA_btl_vader_single_copy_mechanism=none"},
-         .output = Child::Stream::inherited,
-         .errors = Child::Stream::captured});
-    MpirunWatch watch(child.process(), ranks, time_limit_s);
-    auto state = MpirunWatch::State::ranks_run;
-    ProcessEnd end;
-    {
-        const AtSignal stop([&child] {
-            child.send(SIGTERM);
-            end_descendants(grace);
-        });
-        state = read_all(child, watch);
-        if (state != MpirunWatch::State::ranks_run)
-            end_descendants({});
-        end = child.wait();
-    }
+    std::optional<Child> child;
+    const Child::Start start = {
+        .path = command.front(),
+        .words = command,
+        .environment = {columns, "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                        "OMPI_MCA_btl_vader_single_copy_mechanism=none"},
+        .output = Child::Stream::inherited,
+        .errors = Child::Stream::captured};
+    // mpirun can be deaf to the signal that setpriv sends it when this process ends.
+    const AtSignal stop([&] { child.emplace(start); },
+                        [&child] {
+                            child->send(SIGTERM);
+                            end_descendants(grace);
+                        });
+    MpirunWatch watch(child->process(), ranks, time_limit_s);
+    const auto state = read_all(*child, watch);
+    if (state != MpirunWatch::State::ranks_run)
+        end_descendants({});
+    const ProcessEnd end = child->wait();
     if (state != MpirunWatch::State::ranks_run)
         say_hung(state, watch, ranks, end.output);
     const bool has_exited = end.how == ProcessEnd::How::exited;

@@ -255,11 +255,12 @@ def test_a_rank_that_mpirun_does_not_name_is_said_to_be_lost():
 
 
 def test_an_mpirun_that_hangs_is_ended():
-    rank = f"{PROGRAM} collide --scene torus:20000 --collider leaf --samples 1 >/dev/null 2>&1 &"
     deaf = "trap '' TERM"
+    # Ranks that wait for their plan, without work for the processor, and end when it is empty.
+    ranks = ("mkfifo $0.json", *[f"{PROGRAM} run $0.json >/dev/null 2>&1 &"] * 2, "sleep 3", ": >$0.json")
     hung = {"starts none": (3, "mpirun started 0 of 2 ranks within 10.1 s", with_mpirun("none", deaf, "sleep 1000")),
-            "ends none": (4, "mpirun or a rank ended, the others did not within 10.1 s", with_mpirun("both", deaf, rank, rank, "sleep 1000")),
-            "says why": (4, "others did not within 10.1 s", with_mpirun("why", deaf, "echo bvhbench: rank 1 said why >&2", rank, rank, "sleep 1000"))}
+            "ends none": (4, "mpirun or a rank ended, the others did not within 10.1 s", with_mpirun("both", deaf, *ranks, "sleep 1000")),
+            "says why": (4, "others did not within 10.1 s", with_mpirun("why", deaf, "echo bvhbench: rank 1 said why >&2", *ranks, "sleep 1000"))}
     begins = {name: begun(environment, "torus:2000", "--time-limit", "0.1") for name, (_, _, environment) in hung.items()}
     stopped, mark = begun(with_mpirun("deaf", deaf, "sleep 1000", "sleep 1000"), "torus:2000")
     wait_until(lambda: any(pathlib.Path(f"/proc/{process}/comm").read_text() == "sleep\n" for process, _ in processes_of(mark)))
