@@ -68,7 +68,14 @@ std::shared_ptr<NarrowPhase> compiled(Session& session, const NarrowMethod& meth
     }
 }
 
-/// Writes what a method found in a piece to its cell, and the bytes moved to its samples.
+/// Returns the bytes that a query of a piece must move if it finds `found`.
+std::int64_t moved_bytes(const PairList& found, const Piece& piece)
+{
+    const auto pairs = static_cast<std::int64_t>(piece.pairs.size() + found.size());
+    return corner_bytes(piece.pairs, piece.input) + pairs * static_cast<std::int64_t>(sizeof(Pair));
+}
+
+/// Writes what a method found in a piece to its cell.
 void count_piece(const NarrowPhase& narrow, const PairList& found, const Piece& piece,
                  const Queue& queue, Cell& cell)
 {
@@ -84,11 +91,6 @@ void count_piece(const NarrowPhase& narrow, const PairList& found, const Piece& 
     put("narrow_float_count", counts.by_floats);
     put("narrow_double_count", counts.by_doubles);
     put("narrow_exact_count", counts.exactly);
-    const auto pairs = static_cast<std::int64_t>(piece.pairs.size() + found.size());
-    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
-    for (Sample& sample : cell.samples)
-        add_moved_bytes(sample.stages, "narrow",
-                        corners + pairs * static_cast<std::int64_t>(sizeof(Pair)));
 }
 
 /// Adds a cell for each method. Looks at the contacts before and after timing, because a race may strike in some runs only.
@@ -100,12 +102,15 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
         const auto settle = [&](Subject& one) {
             const std::shared_ptr<NarrowPhase> narrow = compiled(session, method);
             narrow->reserve(piece.mesh.faces.size());
-            const std::uint64_t hash = contacts_of(*narrow, piece, session).hash();
-            one.once = [&, narrow] {
+            const PairList first = contacts_of(*narrow, piece, session);
+            const std::uint64_t hash = first.hash();
+            one.once = [&, narrow, moved = moved_bytes(first, piece)] {
                 session.give_head_start();
                 narrow->query(piece.input, piece.candidates.pairs, piece.candidates.counters,
                               session.queue());
-                return session.queue().finish();
+                std::vector<StageTime> stages = session.queue().finish();
+                add_moved_bytes(stages, "narrow", moved);
+                return stages;
             };
             one.judge_again = [&, narrow, hash] {
                 const PairList found = contacts_of(*narrow, piece, session);
