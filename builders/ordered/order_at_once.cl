@@ -43,8 +43,8 @@ static inline Bounds posted_bounds(volatile global const ulong* posts, const uin
     return bounds;
 }
 
-/// Writes the boxes of a tile and returns to item 0 the bounds of all tiles, once these have been posted; fills `table` before it waits.
-/// `words` is scratch.
+/// Writes the boxes of a tile, fills `table`, and waits for the bounds of all tiles. Returns them, joined, to item 0. `words` is
+/// scratch.
 static inline Bounds bounds_of_all(POINTS_PARAMETERS(), const global Face* faces,
                                    global float2* boxes, volatile global ulong* posts,
                                    local uint* words, local ushort* table, const uint first,

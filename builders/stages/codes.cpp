@@ -6,8 +6,8 @@
 namespace bvhbench {
 namespace {
 
-/// No more than run at a time: each group fills a table (code_by_table.clh), and where digits are counted adds its counts to those of the
-/// others.
+/// As many as run at a time. More groups would cost more: each fills a table (code_by_table.clh) and may add its counts of digits to
+/// those of all groups.
 constexpr uint items_per_unit = 1536;
 constexpr uint counting_group_size = 512;
 

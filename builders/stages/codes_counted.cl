@@ -10,8 +10,8 @@
 // Boxes that a work-item reads before it computes their codes, so that the reads overlap.
 #define READ_AHEAD 2u
 
-/// Writes the codes of all `count` boxes, of `bits` bits, and adds their digits' counts to `counters`. From the last box on: those that
-/// the stage `bounds` wrote last are still in a cache, as are the codes of the first boxes when the sort begins with them.
+/// Writes the codes of all `count` boxes, of `bits` bits, and adds their digits' counts to `counters`. Begins with the last box:
+/// a cache still holds the boxes that the stage `bounds` wrote last. The sort then finds the codes of the first boxes in a cache.
 kernel void codes_counted(global const float2* restrict boxes,
                           global const Bounds* restrict all_bounds,
                           global const uint* restrict owners, global Code* restrict codes,

@@ -60,8 +60,8 @@ def p_value(first: numpy.ndarray, second: numpy.ndarray) -> float:
 
 @functools.cache
 def orders_by_pairs(first: int, second: int) -> list[int]:
-    """Returns the number of orders of so many values of two samples in which each number of pairs has the larger value in the first
-    sample: the coefficients of the Gaussian binomial."""
+    """Returns how many ways there are to mix two ordered samples of `first` and `second` values, by the number of pairs whose
+    larger value is in the first sample: the coefficients of the Gaussian binomial."""
     orders = [1] + [0] * (first * second)
     for k in range(1, first + 1):
         for pairs in range(first * second, second + k - 1, -1):

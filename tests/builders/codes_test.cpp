@@ -34,7 +34,7 @@ Scene boxes_of(uint count, uint objects)
 
 class CodesContract : public testing::TestWithParam<OrderEntry> {
 protected:
-    /// Codes by groups, alone and with counts of their digits, are those of the host, so many that a work-item makes several.
+    /// Codes by groups, alone and with counts of their digits, are those of the host. A work-item makes several of them.
     static void expect_equal_to_host(const Scene& scene)
     {
         const OrderEntry& order = GetParam();

@@ -162,7 +162,7 @@ TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
                 if (drops_bits && form == KernelForm::groups)
                     continue;  // takes seconds on a CPU, with the same kernel arguments
                 SCOPED_TRACE(form_name(form));
-                // By groups, so many that the digits are counted with the codes.
+                // By groups, and enough triangles for digits to be counted with the codes.
                 Programs& programs = programs_at_once(form == KernelForm::groups ? 1 : 0);
                 LeafOrder order(programs, entry.name, form, grid);
                 reserve([&](Arena& arena) { order.plan(arena, sizes, Use::tree, true); });

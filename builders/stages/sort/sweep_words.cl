@@ -4,7 +4,7 @@
 // check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DMOST_PASSES=8u -DSTATE_EPOCH_BITS=31u -DREADS_CODES=0 -DWRITES=0
 //
 // A pass of sweep.cl over pairs that are words: above the id, the digits of the code that are left. CODE_WORDS is the size of a word.
-// A pass writes and reads half as many pieces of memory as with codes and ids apart.
+// A pair is read and written by one access, where codes and ids apart take two.
 #include "builders/stages/sort/sweep_tile.clh"
 
 // READS_CODES: words are made of codes of 32 bits, whose ids are their positions.
