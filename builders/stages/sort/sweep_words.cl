@@ -50,9 +50,10 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep_words(
     const uint first = tile * TILE, here = min(TILE, count - first);
     OwnCodes own;
 #if READS_CODES
+    const uint start = own_start();
 #pragma unroll
     for (uint k = 0u; k < KEYS_PER_ITEM; ++k) {
-        const uint at = own_start() + k * LANES;
+        const uint at = start + k * LANES;
         own.codes[k] = at < here ? (Code)in[first + at] << id_bits | (first + at) : ~(Code)0;
     }
 #else
