@@ -35,7 +35,7 @@ def quotes(doc: Document) -> None:
                 if rivals.cell(scene, asked).outside) / triangles_to_pairs(first[scene])
             for scene in SCENES]
     doc.says("The fastest method from outside takes {} to {} times as long as ours", min(best), max(best))
-    doc.says("cuBQL takes {} ms where `block` takes {}", query_us(rivals.cell(SCENES[2], "cubql-rebin-radix")) * 1e-3,
+    doc.says("it takes {} ms where `block` takes {}", query_us(rivals.cell(SCENES[2], "cubql-rebin-radix")) * 1e-3,
              query_us(first[SCENES[2]]) * 1e-3)
     walls = [cell.wall_ns * 1e-6 for cell in (rivals.cell(SCENES[0], asked) for asked in ROWS.values()) if cell.outside]
     doc.says("a frame of torus:144046 takes {} ms with ours and {} to {} with theirs", first[SCENES[0]].wall_ns * 1e-6,
