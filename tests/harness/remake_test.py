@@ -5,6 +5,7 @@ Usage: remake_test.py <bvhbench> <source root>"""
 import argparse
 import json
 import lzma
+import os
 import pathlib
 import re
 import runpy
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 PROGRAM, ROOT = sys.argv.pop(1), pathlib.Path(sys.argv.pop(1)).resolve()
 SCRIPT = ROOT / "results" / "remake"
@@ -47,6 +49,13 @@ class Remake(unittest.TestCase):
             if unit.command.startswith("run "):
                 name = unit.command.split()[1]
                 self.assertTrue((ROOT / "harness" / "experiments" / f"{name}.json").is_file(), unit)
+
+    def test_gives_plug_ins_to_those_commands_that_need_them(self) -> None:
+        script = runpy.run_path(str(SCRIPT))
+        with mock.patch.dict(os.environ, BVHBENCH_PLUGINS="mine.so"):
+            for needs in ("", "plug-ins"):
+                given = script["environment"](script["Unit"]("builders", 1, "run builders", needs))
+                self.assertEqual("BVHBENCH_PLUGINS" in given, needs == "plug-ins")
 
     def test_makes_a_part_once(self) -> None:
         first = self.quick("--part", "2", "--only", "rebuild", "--jobs", "2")
