@@ -43,7 +43,7 @@ constexpr std::size_t swept_groups_per_unit = 32;
 /// Most work-groups per compute unit, of the filter and of the exact test: about as many as run at a time. Others only cost their
 /// start: on an H200 22,558 candidates took both kernels together 16 µs with 32 groups each, and 11 with 4 and 2; 980,183 took the
 /// filter 38.4 µs with 4 and 34.1 with 6. With 8 groups in the place of 2, exact tests of most kinds of pairs took up to 1.7 times as
-/// long, and those of the slowest kind, pairs a hair's breadth apart, 0.78 times.
+/// long, and those of the slowest kind, pairs a hair's breadth apart, 0.78 times (not kept).
 constexpr std::size_t filter_groups_per_unit = 6, exact_groups_per_unit = 2;
 
 bool has_doubles(const Device& device)
