@@ -12,7 +12,7 @@
 #include "baselines/radix/levels.clh"
 #include "device/handoff.clh"
 
-/// Waits for all groups. `step` numbers the waits of a launch; no wait has had the number `epoch` + `step` before.
+/// Waits for all groups. `step` numbers the waits of a launch; all earlier waits had numbers below `epoch` + `step`.
 static inline void end_step(volatile global ulong* waits, const ulong epoch, const uint step)
 {
     wait_for_all(waits, (uint)get_group_id(0), (uint)get_num_groups(0), epoch + step);

@@ -6,6 +6,7 @@ import argparse
 import json
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ import output
 import reserved
 from json_files import Refused, parsed
 
-FORMAT = "cluster-runs-1.0"
+FORMAT = "cluster-runs-1.1"
 RANKS = (1, 2, 4, 8)
 HALO_RANKS, HALO_BOXES = (2, 8, 64), (1, 64)
 STRONG, WEAK, HALO = 67_108_864, 33_554_432, 1_152_000  # triangles: in all, a rank, in all
@@ -109,13 +110,22 @@ def measured(cell: Cell, options: list[str]) -> dict[str, Any]:
                         {"status": "measured"}) | {"result": result}
 
 
+def topology() -> dict[str, str]:
+    """Returns how the host's NVIDIA devices are linked, as nvidia-smi prints it; nothing where it cannot tell."""
+    try:
+        done = subprocess.run(["nvidia-smi", "topo", "-m"], capture_output=True, text=True, timeout=60, check=True)
+    except (OSError, subprocess.SubprocessError):
+        return {}
+    return {"topology": re.sub(r"\x1b\[[\d;]*m", "", done.stdout).rstrip()}
+
+
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
     samples = arguments.samples if arguments.samples is not None else 3 if arguments.experiment == "halo" else 20
     if not 1 <= samples <= 10000:
         raise output.WrongUsage(f"--samples: {samples} is not from 1 to 10000")
     cells, runs = cells_of(arguments), []
-    document = {"format": FORMAT, "experiment": arguments.experiment, "command": ["bvhbench", "scale", *words], "runs": runs}
+    document = {"format": FORMAT, "experiment": arguments.experiment, "command": ["bvhbench", "scale", *words], **topology(), "runs": runs}
     options = command.common_words(arguments, "--force") + ["--samples", str(samples)]
     for name in PIPELINE:
         options += [f"--{name}", getattr(arguments, name)] if getattr(arguments, name) else []

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "collide/oracles/axes.h"
 #include "collide/oracles/box_pairs.h"
 
 namespace bvhbench {
@@ -50,6 +52,18 @@ protected:
         return GetParam()(boxes, wanted);
     }
 };
+
+TEST(Axes, BeginWithTheOneAlongWhichFewestBoxesOverlap)
+{
+    std::vector<Aabb> rows;  // of 16 rows along x, all boxes of a row at one y
+    for (int k = 0; k < 1 << 15; ++k) {
+        const auto x = static_cast<float>(k % 2048), y = static_cast<float>(k / 2048);
+        rows.push_back({x, y, 0, x + 1, y, 2});
+    }
+    const std::array<Axis, 3> axes = axes_of(rows);
+    EXPECT_LT(axes[1].share, axes[0].share);  // a box has no extent along y, and yet
+    EXPECT_TRUE(axes[0].min == &Aabb::min_x && axes[1].min == &Aabb::min_y);
+}
 
 TEST_P(OraclesOfPairs, AreThoseOfBruteForceWhicheverAxisIsLongest)
 {
