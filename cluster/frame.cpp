@@ -19,6 +19,7 @@ std::int64_t now_ns()
     return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
+/// Returns what the device took since the last call.
 std::int64_t device_ns(Queue& queue)
 {
     std::int64_t sum = 0;
@@ -50,13 +51,6 @@ public:
             begins_(frame_stages[stage_]);
     }
 
-    /// Ends the next stage, and waits for the work of the device before that.
-    void end_stage(Queue& queue)
-    {
-        frame_.device_ns[stage_] = device_ns(queue);
-        end_stage();
-    }
-
 private:
     RankFrame& frame_;
     std::size_t count_;
@@ -72,6 +66,8 @@ DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queu
     : ranks_(ranks)
     , programs_(programs)
     , queue_(queue)
+    , stage_queues_(frame_stage_count, Queue(programs.device(), queue.cl()))
+    , beside_(programs.device())
     , builder_(builder)
     , collider_(collider)
     , keep_adjacent_(keep_adjacent)
@@ -140,34 +136,44 @@ RankFrame DistributedFrame::run()
     const std::size_t stages = contacts_ ? frame_stage_count : frame_stage_count - 1;
     Clock clock(frame, stages, begins_);
     const std::vector<Aabb> own = build();
-    clock.end_stage(queue_);
+    clock.end_stage();
 
     const std::vector<Aabb> tops = gathered<Aabb>(ranks_, own);
     frame.sent_bytes = (ranks_.count() - 1) * own.size() * sizeof(Aabb);
     clock.end_stage();
 
-    const std::vector<Pair> leaving = select(wanted_from(ranks_.rank(), tops, ranks_.count()));
-    clock.end_stage(queue_);
-
+    // The device goes on with the own triangles while the host reads which leave.
+    start_selecting(wanted_from(ranks_.rank(), tops, ranks_.count()));
     if (has_tree()) {
-        collider_.query(tree_, *input_, queue_);
+        collider_.query(tree_, *input_, queue(in_self));
         queue_.cl().flush();
     }
+    const std::vector<Pair> leaving = selected();
+    clock.end_stage();
+
     halo_ = exchange(leaving, frame);
     clock.end_stage();
 
-    while (has_tree() && !collider_.complete(queue_))
-        collider_.query(tree_, *input_, queue_);
-    clock.end_stage(queue_);
+    // It goes on with the halo as well while the host reads whether the lists had room.
+    if (has_tree()) {
+        start_halo();
+        while (!collider_.complete(beside_)) {
+            collider_.query(tree_, *input_, queue(in_self));
+            beside_.run_after(queue_);
+        }
+    }
+    clock.end_stage();
 
-    query_halo();
-    clock.end_stage(queue_);
+    find_halo();
+    clock.end_stage();
 
     if (contacts_) {
         find_contacts();
-        clock.end_stage(queue_);
+        clock.end_stage();
         frame.contacts = contacts_->count(queue_);
     }
+    for (std::size_t stage = 0; stage < frame_stage_count; ++stage)
+        frame.device_ns[stage] = device_ns(stage_queues_[stage]);
     if (has_tree())
         frame.own_pairs = collider_.counts(queue_).pairs;
     frame.halo_pairs = !has_tree()     ? pairs_of_one_.size()
@@ -180,8 +186,9 @@ RankFrame DistributedFrame::run()
 std::vector<Aabb> DistributedFrame::build()
 {
     if (has_tree()) {
-        tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(*input_, queue_));
-        return tops_.read(*tree_, queue_);
+        Queue& queue = this->queue(in_build);
+        tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(*input_, queue));
+        return tops_.read(*tree_, queue);
     }
     std::vector<Aabb> own(box_count_, empty_box());
     if (share_.triangle_count() == 1)
@@ -189,15 +196,32 @@ std::vector<Aabb> DistributedFrame::build()
     return own;
 }
 
-std::vector<Pair> DistributedFrame::select(const WantedBoxes& wanted)
+/// Enqueues the search for triangles that overlap the wanted boxes, and lets what follows in `beside_` run after it.
+void DistributedFrame::start_selecting(WantedBoxes wanted)
 {
-    if (wanted.boxes.empty())
+    wanted_ = std::move(wanted);
+    if (!has_tree() || wanted_.boxes.empty())
+        return;
+    leaving_.want(wanted_, queue(in_select));
+    query_leaving();
+}
+
+void DistributedFrame::query_leaving()
+{
+    leaving_.query(nullptr, *input_, queue(in_select));
+    beside_.run_after(queue_);
+}
+
+/// Returns the triangles that were found, with the rank that each leaves to.
+std::vector<Pair> DistributedFrame::selected()
+{
+    if (wanted_.boxes.empty())
         return {};
     if (!has_tree())
-        return leaving(face_boxes(share_.points, share_.faces), wanted);
-    leaving_.want(wanted, queue_);
-    find_pairs(leaving_, nullptr, *input_, queue_);
-    return leaving_.pairs(queue_);
+        return leaving(face_boxes(share_.points, share_.faces), wanted_);
+    while (!leaving_.complete(beside_))
+        query_leaving();
+    return leaving_.pairs(beside_);
 }
 
 std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& leaving,
@@ -245,14 +269,25 @@ std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& le
     return halo;
 }
 
-void DistributedFrame::query_halo()
+/// Enqueues the test of the halo against the tree, and lets what follows in `beside_` run after all that was enqueued before.
+void DistributedFrame::start_halo()
+{
+    if (!halo_.empty())
+        halo_query_.bring(halo_, beside_);
+    beside_.run_after(queue_);
+    if (!halo_.empty())
+        halo_query_.query(tree_, *input_, queue(in_halo));
+    queue_.cl().flush();
+}
+
+void DistributedFrame::find_halo()
 {
     pairs_of_one_.clear();
     if (halo_.empty())
         return;
     if (has_tree()) {
-        halo_query_.bring(halo_, queue_);
-        find_pairs(halo_query_, tree_, *input_, queue_);
+        while (!halo_query_.complete(queue_))
+            halo_query_.query(tree_, *input_, queue(in_halo));
         return;
     }
     for (uint k = 0; k < halo_.size(); ++k)
@@ -263,17 +298,18 @@ void DistributedFrame::query_halo()
 
 void DistributedFrame::find_contacts()
 {
-    contacts_->bring(share_, halo_, halo_corners_, queue_);
+    Queue& queue = this->queue(in_narrow);
+    contacts_->bring(share_, halo_, halo_corners_, queue);
     std::optional<DevicePairs> own, with_halo;
     if (has_tree()) {
-        own = collider_.device_pairs(queue_);
+        own = collider_.device_pairs(queue);
         if (!halo_.empty())
-            with_halo = halo_query_.device_pairs(queue_);
+            with_halo = halo_query_.device_pairs(queue);
     } else if (!pairs_of_one_.empty()) {
         with_halo = room_for_pairs(programs_.device(), pairs_of_one_.size());
-        copy_pairs(pairs_of_one_, *with_halo, queue_);
+        copy_pairs(pairs_of_one_, *with_halo, queue);
     }
-    contacts_->find(own ? &*own : nullptr, with_halo ? &*with_halo : nullptr, queue_);
+    contacts_->find(own ? &*own : nullptr, with_halo ? &*with_halo : nullptr, queue);
 }
 
 }  // namespace bvhbench

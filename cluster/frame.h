@@ -97,12 +97,25 @@ public:
 
 private:
     class Clock;
+    enum Stage : std::size_t {
+        in_build,
+        in_boxes,
+        in_select,
+        in_exchange,
+        in_self,
+        in_halo,
+        in_narrow
+    };
     bool has_tree() const { return share_.triangle_count() > 1; }
     std::vector<Aabb> build();
-    std::vector<Pair> select(const WantedBoxes& wanted);
+    void start_selecting(WantedBoxes wanted);
+    void query_leaving();
+    std::vector<Pair> selected();
     std::vector<HaloTriangle> exchange(const std::vector<Pair>& leaving, RankFrame& frame);
-    void query_halo();
+    void start_halo();
+    void find_halo();
     void find_contacts();
+    Queue& queue(Stage stage) { return stage_queues_[stage]; }
     template <class OnDevice>
     void on_named_pairs(const OnDevice& work);
     uint scene_id(uint k) const;
@@ -111,6 +124,8 @@ private:
     Ranks& ranks_;
     Programs& programs_;
     Queue& queue_;
+    std::vector<Queue> stage_queues_;  ///< all are `queue_`; each keeps the times of one stage
+    Queue beside_;                     ///< for reads and uploads while `queue_` is at work
     Builder& builder_;
     Collider& collider_;
     bool keep_adjacent_;
@@ -118,6 +133,7 @@ private:
     std::function<void(std::string_view)> begins_ = [](std::string_view) {};
     TopBoxes tops_;
     Leaving leaving_;
+    WantedBoxes wanted_;  ///< of the last search
     HaloQuery halo_query_;
     std::optional<RankContacts> contacts_;
     Share share_;

@@ -109,7 +109,8 @@ std::vector<Pair> DistributedFrame::right_pairs_of(const TriangleSample& sample)
         wanted.around = merged(wanted.around, one.box);
     }
     std::vector<Pair> pairs;
-    for (const auto& [k, place] : select(wanted)) {
+    start_selecting(std::move(wanted));
+    for (const auto& [k, place] : selected()) {
         const HaloTriangle& other = all[place];
         const uint id = share_.ids[k];
         if (id == other.id || (sample.has(id) && id < other.id))

@@ -12,7 +12,8 @@ class Leaving final : public DeviceCollider {
 public:
     explicit Leaving(Programs& programs);
 
-    /// Uploads the boxes that the next query tests triangles against; at least one. Waits.
+    /// Enqueues the upload of the boxes that the next query tests triangles against; at least one. They must live until that query is
+    /// complete.
     void want(const WantedBoxes& wanted, Queue& queue);
 
 private:
@@ -26,6 +27,7 @@ private:
     std::optional<Arena> wanted_arena_;
     Buffer<Aabb> boxes_;
     Buffer<uint> ranks_;
+    std::vector<Aabb> boxes_and_around_;  ///< as they are uploaded
     uint wanted_count_ = 0;
 };
 

@@ -36,6 +36,14 @@ void Queue::join()
         queue_.enqueueBarrierWithWaitList();
 }
 
+void Queue::run_after(const Queue& other)
+{
+    std::vector<cl::Event> reached(1);
+    other.queue_.enqueueMarkerWithWaitList(nullptr, &reached.front());
+    other.queue_.flush();
+    queue_.enqueueBarrierWithWaitList(&reached);
+}
+
 void Queue::forget()
 {
     launches_.clear();

@@ -43,6 +43,9 @@ public:
     /// on an out-of-order queue and nothing on an in-order one. Does not wait.
     void join();
 
+    /// Makes all later commands run after those that were enqueued in `other` before. Does not wait.
+    void run_after(const Queue& other);
+
     /// True if `finish` reads the device clock; if false, durations are 0.
     bool has_times() const { return has_times_; }
 

@@ -135,7 +135,13 @@ def test_what_is_wrong_is_said_once():
 
 
 def test_experiments_write_one_file():
-    expect(0, "scale", "strong", "--scene", "torus:2000", "--ranks", "1,2", "--samples", "2", "--out", "strong.json")
+    tool = pathlib.Path("tools", "nvidia-smi")
+    tool.parent.mkdir()
+    tool.write_text("#!/bin/sh\n[ \"$*\" = 'topo -m' ] && printf '\\033[4mGPU0\\033[0m NV18\\n'")
+    tool.chmod(0o755)
+    expect(0, "scale", "strong", "--scene", "torus:2000", "--ranks", "1,2", "--samples", "2", "--out", "strong.json",
+           PATH=f"{tool.parent.resolve()}:{os.environ['PATH']}")
+    assert result("strong.json")["topology"] == "GPU0 NV18"
     runs = result("strong.json")["runs"]  # of two ranks, one has no device
     assert [(one["ranks"], one["status"]) for one in runs] == [(1, "measured"), (2, "failed")], runs
     assert "2 ranks on " in runs[1]["reason"] and "need a device each, and one matches" in runs[1]["reason"], runs[1]
@@ -150,7 +156,7 @@ def test_experiments_write_one_file():
     expect(0, "cluster", "torus:2000", "--ranks", "2", *SHARED, "--samples", "1", "--partition", "curve", "--json", "two.json")
     difference = expect(0, "compare", "plain.json", "two.json", "--allow-dirty", says="changed ranks 2, was 1")  # the pairs are the same
     assert "no regression\n" in difference and "changed partition curve, was rcb\n" in difference, difference
-    expect(2, "compare", "plain.json", "halo.json", "--allow-dirty", says="plain.json has format cluster-1.0 and halo.json cluster-runs-1.0")
+    expect(2, "compare", "plain.json", "halo.json", "--allow-dirty", says="plain.json has format cluster-1.0 and halo.json cluster-runs-1.1")
     expect(2, "compare", "plain.json", str(SOURCE / "results" / "h200" / "table1.json.xz"), says="is no file of `bvhbench cluster` or `scale`")
     expect(0, "plot", "strong.json", "halo.json", "plain.json", "--out", "figures")
     assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo", "plain"))
