@@ -1,22 +1,47 @@
+from collections.abc import Callable
+
+from clusters import stage_times
 from quotes import Document, File, frame_ms
 
 
 def quotes(doc: Document) -> None:
-    strong, weak, small = (File(f"h200/cluster-{name}").document["runs"] for name in ("strong", "weak", "strong-small"))
-    one, two = (frame_ms(run["result"]) for run in strong)
-    doc.says("| torus:67108864 | {} ms | {} ms | {} times as fast |", one, two, one / two)
-    half, whole = (frame_ms(run["result"]) for run in weak)
-    doc.says("| torus:33554432, torus:67108864 | {} ms | {} ms | as much on each: efficiency {} % |", half, whole, 100 * half / whole)
-    doc.says("The measured {} is below", one / two)
-    doc.says("torus:2880000 takes {} ms on one H200 and {} on two", *(frame_ms(run["result"]) for run in small))
+    def times(name: str) -> list[float]:
+        return [frame_ms(run["result"]) for run in File(f"h200/cluster-{name}").document["runs"]]
 
-    billion, largest = File("h200/cluster-billion").document, File("h200/cluster-largest").document
+    for name, scene in (("strong", "torus:67108864"), ("strong-buddha", "the scanned Happy Buddha, refined to 17,000,000"),
+                        ("strong-hairball", "hairball:8000000"), ("strong-small", "torus:2880000")):
+        doc.says(f"| {scene} | {{}} ms | {{}} ms | {{}} ms | {{}} times as fast |", *times(name), times(name)[0] / times(name)[2])
+    weak = times("weak")
+    doc.says("| torus with 33,554,432 on each | {} ms | {} ms | {} ms | {} % efficient |", *weak, 100 * weak[0] / weak[2])
+
+    def most(name: str, stage: str, clock: str = "device_ns", pick: Callable[[list[float]], float] = max) -> float:
+        """Returns the most time that a rank of four needs for a stage, or for all of them, in milliseconds."""
+        stages = stage_times(File(f"h200/cluster-{name}").document["runs"][2]["result"], clock)
+        return pick(stages[stage] if stage else [sum(ranks) for ranks in zip(*stages.values())]) * 1e-6
+
+    doc.says("torus:67108864: the busiest device works for {} of the {} ms", most("strong", ""), times("strong")[2])
+    doc.says("The exchange, of {} ms at most, is hidden behind the test of the own triangles, {} ms", most("strong", "exchange", "host_ns"),
+             most("strong", "self"))
+    doc.says("the busiest device works for {} of {} ms. The own triangles take {} ms, the exchange {} on", most("strong-buddha", ""),
+             times("strong-buddha")[2], most("strong-buddha", "self"), most("strong-buddha", "exchange", "host_ns"))
+    hairball = File("h200/cluster-strong-hairball").document["runs"][2]["result"]
+    doc.says("The hairball: {} % of the triangles leave. Testing them takes {} ms on the device that receives most and {} on the one that "
+             "receives least, more than the own triangles ({})", 100 * hairball["halo_share"], most("strong-hairball", "halo"),
+             most("strong-hairball", "halo", pick=min), most("strong-hairball", "self"))
+    doc.says("and 8,000,000 have {}", hairball["pairs_count"])
+
+    billion, = (run["result"] for run in File("h200/cluster-billion").document["runs"])
+    largest = File("h200/cluster-largest").document
     rank = billion["ranks"][0]
     doc.says("along `hilbert48`: {} ms a frame, {} pairs", frame_ms(billion), billion["pairs_count"])
     doc.says("predicted as\n{} GB and measured as {}; the host took {} GB for it, {} bytes a triangle", rank["predicted_device_bytes"]
              * 1e-9,
              rank["device_peak_bytes"] * 1e-9, rank["host_peak_bytes"] * 1e-9, rank["host_peak_bytes"] / rank["triangles"])
     doc.says("moving the triangles took\n{} s, once", billion["partition_ns"] * 1e-9)
+    whole, = (run["result"] for run in File("h200/cluster-most").document["runs"])
+    doc.says("on four H200: {} ms a frame, {} pairs", frame_ms(whole), whole["pairs_count"])
+    doc.says("It took {} GB of each device's memory and {} GB of the host's for each rank",
+             *(max(rank[key] for rank in whole["ranks"]) * 1e-9 for key in ("device_peak_bytes", "host_peak_bytes")))
     doc.says("| 500,000,000 | `block`, `hilbert48` | H200 | {} | {} |", rank["device_peak_bytes"] / rank["triangles"],
              rank["predicted_device_bytes"] / rank["device_peak_bytes"])
     only = largest["ranks"][0]
