@@ -132,6 +132,8 @@ void DistributedFrame::move(std::vector<Point> points)
 RankFrame DistributedFrame::run()
 {
     RankFrame frame;
+    for (Queue& queue : stage_queues_)
+        queue.forget();  // of a frame that failed
     ranks_.wait_for_all();
     const std::size_t stages = contacts_ ? frame_stage_count : frame_stage_count - 1;
     Clock clock(frame, stages, begins_);

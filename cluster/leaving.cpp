@@ -18,16 +18,16 @@ Leaving::Leaving(Programs& programs)
 
 void Leaving::want(const WantedBoxes& wanted, Queue& queue)
 {
-    wanted_count_ = static_cast<uint>(wanted.boxes.size());
-    if (boxes_.size() < wanted_count_ + 1)
+    std::vector<Aabb> boxes = wanted.boxes;
+    boxes.push_back(wanted.around);
+    if (boxes_.size() < boxes.size())
         take_memory(wanted_arena_, device(), [&](Arena& arena) {
-            boxes_ = arena.take<Aabb>(wanted_count_ + 1, Use::scratch);
-            ranks_ = arena.take<uint>(wanted_count_, Use::scratch);
+            boxes_ = arena.take<Aabb>(boxes.size(), Use::scratch);
+            ranks_ = arena.take<uint>(wanted.boxes.size(), Use::scratch);
         });
-    boxes_and_around_ = wanted.boxes;
-    boxes_and_around_.push_back(wanted.around);
-    boxes_.enqueue_upload(queue.cl(), boxes_and_around_);
-    ranks_.enqueue_upload(queue.cl(), wanted.ranks);
+    boxes_.upload(queue.cl(), boxes);
+    ranks_.upload(queue.cl(), wanted.ranks);
+    wanted_count_ = static_cast<uint>(wanted.boxes.size());
 }
 
 void Leaving::compile(const Input&)

@@ -12,8 +12,7 @@ class Leaving final : public DeviceCollider {
 public:
     explicit Leaving(Programs& programs);
 
-    /// Enqueues the upload of the boxes that the next query tests triangles against; at least one. They must live until that query is
-    /// complete.
+    /// Uploads the boxes that the next query tests triangles against; at least one. Waits.
     void want(const WantedBoxes& wanted, Queue& queue);
 
 private:
@@ -27,7 +26,6 @@ private:
     std::optional<Arena> wanted_arena_;
     Buffer<Aabb> boxes_;
     Buffer<uint> ranks_;
-    std::vector<Aabb> boxes_and_around_;  ///< as they are uploaded
     uint wanted_count_ = 0;
 };
 

@@ -47,13 +47,9 @@ public:
     /// Writes `values` to the front. Waits.
     void upload(const cl::CommandQueue& queue, std::span<const T> values)
     {
-        write(queue, values, CL_TRUE);
-    }
-
-    /// Enqueues writing `values`, which must live until that has run, to the front. Does not wait.
-    void enqueue_upload(const cl::CommandQueue& queue, std::span<const T> values)
-    {
-        write(queue, values, CL_FALSE);
+        assert(values.size() <= size_);
+        if (!values.empty())
+            queue.enqueueWriteBuffer(memory_, CL_TRUE, 0, values.size_bytes(), values.data());
     }
 
     /// Returns a copy of all values, after everything enqueued before has run. Waits.
@@ -66,13 +62,6 @@ public:
     }
 
 private:
-    void write(const cl::CommandQueue& queue, std::span<const T> values, cl_bool waits)
-    {
-        assert(values.size() <= size_);
-        if (!values.empty())
-            queue.enqueueWriteBuffer(memory_, waits, 0, values.size_bytes(), values.data());
-    }
-
     cl::Buffer memory_;
     std::size_t size_ = 0;
 };

@@ -63,3 +63,7 @@ def quotes(doc: Document) -> None:
              halo("cluster-halo", "curve"))
     doc.says("Of soup:1000000 {} % go to another of 8 ranks with\n`rcb`, {} % with `curve`", halo("cluster-halo-soup", "rcb"),
              halo("cluster-halo-soup", "curve"))
+
+    doc.says("times on 4 ranks for torus:67108864, where {} was measured", times("strong")[0] / times("strong")[2])
+    doc.says("{} ms on the rank that sends to two others, the test of those that came, {} ms", most("strong", "select"),
+             most("strong", "halo"))
