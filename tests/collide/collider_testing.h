@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -268,6 +269,24 @@ struct Standing {
         return answer->second;
     }
 };
+
+/// Returns the builders whose trees colliders are tested over: one of each tree and of each way in which kernels read it, at night all.
+/// Others build the same tree, which their tests compare.
+inline const std::vector<BuilderEntry>& builders_to_query()
+{
+    static const std::vector<BuilderEntry> some = [] {
+        std::vector<BuilderEntry> builders;
+        std::set<std::pair<std::string_view, std::string_view>> kinds;
+        for (const BuilderEntry& entry : device_builders()) {
+            const Standing standing(crowded_mesh(3), entry.make);
+            const auto kind = std::pair(entry.oracle, standing.device_tree().access_header());
+            if (kinds.insert(kind).second || takes_all_cases())
+                builders.push_back(entry);
+        }
+        return builders;
+    }();
+    return some;
+}
 
 /// True if the collider queries such trees; otherwise checks that `reserve` throws BadUsage.
 inline bool takes(Collider& collider, const Standing& standing)

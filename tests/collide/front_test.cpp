@@ -10,7 +10,7 @@ namespace {
 /// Returns the builders whose trees a front can track: those of binary trees.
 std::vector<BuilderEntry> builders_of_binary_trees()
 {
-    std::vector<BuilderEntry> builders = device_builders();
+    std::vector<BuilderEntry> builders = builders_to_query();
     std::erase_if(builders, [](const BuilderEntry& entry) {
         const Standing standing(crowded_mesh(3), entry.make);
         return standing.device_tree().child_bits() > 1;
@@ -144,7 +144,7 @@ TEST_P(FrontOver, ClimbsBackWhenItHasGrown)
 }
 
 INSTANTIATE_TEST_SUITE_P(OfPairsOfNodes, FrontOver,
-                         testing::Combine(testing::ValuesIn(device_builders()), both_forms,
+                         testing::Combine(testing::ValuesIn(builders_to_query()), both_forms,
                                           testing::Values(find_collider("front"))),
                          CaseName());
 INSTANTIATE_TEST_SUITE_P(OfLeavesAndNodes, FrontOver,
