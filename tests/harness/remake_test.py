@@ -72,6 +72,13 @@ class Remake(unittest.TestCase):
         self.assertEqual(self.quick("--only", "rebuild").stdout, "rebuild: run rebuild --quick\n")
         self.assertEqual(self.quick("--only", "accuracy-sums").stdout, "accuracy-sums: left out, its command has no --quick\n")
 
+    def test_makes_files_of_scale(self) -> None:
+        script = runpy.run_path(str(SCRIPT))
+        maker = script["Maker"](argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True))
+        maker.ask()
+        self.assertTrue(maker.make(script["Unit"]("scaled", 1, "scale strong --scene torus:64 --ranks 1 --samples 1", piece="scaled")))
+        self.assertTrue(maker.is_there("scaled"))
+
     def test_merges_what_several_commands_made(self) -> None:
         words = argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True)
         script = runpy.run_path(str(SCRIPT))
