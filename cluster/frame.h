@@ -97,6 +97,7 @@ public:
 
 private:
     class Clock;
+    /// In the order of frame_stages.
     enum Stage : std::size_t {
         in_build,
         in_boxes,
