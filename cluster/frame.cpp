@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 
+#include "cluster/frame_clock.h"
 #include "collide/device_lists.h"
 #include "collide/oracles/host_collider.h"
 #include "geometry/cores.h"
@@ -13,13 +13,7 @@
 namespace bvhbench {
 namespace {
 
-std::int64_t now_ns()
-{
-    using namespace std::chrono;
-    return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
-/// Returns what the device took since the last call.
+/// Waits for the queue and returns what its launches took since the last call.
 std::int64_t device_ns(Queue& queue)
 {
     std::int64_t sum = 0;
@@ -29,36 +23,6 @@ std::int64_t device_ns(Queue& queue)
 }
 
 }  // namespace
-
-/// Times the stages of a frame, one after the other.
-class DistributedFrame::Clock {
-public:
-    /// Times the first `count` stages, and calls `begins` with the name of each when it begins.
-    Clock(RankFrame& frame, std::size_t count, const std::function<void(std::string_view)>& begins)
-        : frame_(frame), count_(count), begins_(begins)
-    {
-        begins_(frame_stages[0]);
-    }
-
-    /// Ends the next stage.
-    void end_stage()
-    {
-        const std::int64_t now = now_ns();
-        frame_.host_ns[stage_++] = now - last_;
-        last_ = now;
-        frame_.whole_ns = now - start_;
-        if (stage_ < count_)
-            begins_(frame_stages[stage_]);
-    }
-
-private:
-    RankFrame& frame_;
-    std::size_t count_;
-    const std::function<void(std::string_view)>& begins_;
-    std::size_t stage_ = 0;
-    const std::int64_t start_ = now_ns();
-    std::int64_t last_ = start_;
-};
 
 DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
                                    Collider& collider, bool keep_adjacent, std::string_view narrow,
@@ -136,7 +100,7 @@ RankFrame DistributedFrame::run()
         queue.forget();  // of a frame that failed
     ranks_.wait_for_all();
     const std::size_t stages = contacts_ ? frame_stage_count : frame_stage_count - 1;
-    Clock clock(frame, stages, begins_);
+    FrameClock clock(frame, stages, begins_);
     const std::vector<Aabb> own = build();
     clock.end_stage();
 
@@ -147,7 +111,7 @@ RankFrame DistributedFrame::run()
     // The device goes on with the own triangles while the host reads which leave.
     start_selecting(wanted_from(ranks_.rank(), tops, ranks_.count()));
     if (has_tree()) {
-        collider_.query(tree_, *input_, queue(in_self));
+        collider_.query(tree_, *input_, queue_of(in_self));
         queue_.cl().flush();
     }
     const std::vector<Pair> leaving = selected();
@@ -160,7 +124,7 @@ RankFrame DistributedFrame::run()
     if (has_tree()) {
         start_halo();
         while (!collider_.complete(beside_)) {
-            collider_.query(tree_, *input_, queue(in_self));
+            collider_.query(tree_, *input_, queue_of(in_self));
             beside_.run_after(queue_);
         }
     }
@@ -188,7 +152,7 @@ RankFrame DistributedFrame::run()
 std::vector<Aabb> DistributedFrame::build()
 {
     if (has_tree()) {
-        Queue& queue = this->queue(in_build);
+        Queue& queue = queue_of(in_build);
         tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(*input_, queue));
         return tops_.read(*tree_, queue);
     }
@@ -204,13 +168,13 @@ void DistributedFrame::start_selecting(WantedBoxes wanted)
     wanted_ = std::move(wanted);
     if (!has_tree() || wanted_.boxes.empty())
         return;
-    leaving_.want(wanted_, queue(in_select));
+    leaving_.want(wanted_, queue_of(in_select));
     query_leaving();
 }
 
 void DistributedFrame::query_leaving()
 {
-    leaving_.query(nullptr, *input_, queue(in_select));
+    leaving_.query(nullptr, *input_, queue_of(in_select));
     beside_.run_after(queue_);
 }
 
@@ -278,7 +242,7 @@ void DistributedFrame::start_halo()
         halo_query_.bring(halo_, beside_);
     beside_.run_after(queue_);
     if (!halo_.empty())
-        halo_query_.query(tree_, *input_, queue(in_halo));
+        halo_query_.query(tree_, *input_, queue_of(in_halo));
     queue_.cl().flush();
 }
 
@@ -289,7 +253,7 @@ void DistributedFrame::find_halo()
         return;
     if (has_tree()) {
         while (!halo_query_.complete(queue_))
-            halo_query_.query(tree_, *input_, queue(in_halo));
+            halo_query_.query(tree_, *input_, queue_of(in_halo));
         return;
     }
     for (uint k = 0; k < halo_.size(); ++k)
@@ -300,7 +264,7 @@ void DistributedFrame::find_halo()
 
 void DistributedFrame::find_contacts()
 {
-    Queue& queue = this->queue(in_narrow);
+    Queue& queue = queue_of(in_narrow);
     contacts_->bring(share_, halo_, halo_corners_, queue);
     std::optional<DevicePairs> own, with_halo;
     if (has_tree()) {

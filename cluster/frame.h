@@ -96,7 +96,6 @@ public:
     const Share& share() const { return share_; }
 
 private:
-    class Clock;
     /// In the order of frame_stages.
     enum Stage : std::size_t {
         in_build,
@@ -116,7 +115,7 @@ private:
     void start_halo();
     void find_halo();
     void find_contacts();
-    Queue& queue(Stage stage) { return stage_queues_[stage]; }
+    Queue& queue_of(Stage stage) { return stage_queues_[stage]; }
     template <class OnDevice>
     void on_named_pairs(const OnDevice& work);
     uint scene_id(uint k) const;

@@ -43,7 +43,7 @@ protected:
     KernelForm form() const { return std::get<2>(GetParam()); }
     ColliderOptions options() const { return {.form = form()}; }
 
-    /// True for cases that the kernels of all trees and forms are compiled for at night only.
+    /// True if the case also takes options whose kernels are compiled anew for each tree and form. At night all cases do.
     bool is_thorough() const
     {
         return takes_all_cases() || builder().make == nullptr ||

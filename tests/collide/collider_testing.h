@@ -147,16 +147,6 @@ inline const std::vector<BuilderEntry>& device_builders()
     return all;
 }
 
-/// True for the first builder of each tree. Others build the same tree (their tests compare it), so colliders over them have fewer
-/// cases.
-inline bool is_first_of_its_tree(const BuilderEntry& builder)
-{
-    const std::vector<BuilderEntry>& all = device_builders();
-    return std::find_if(all.begin(), all.end(), [&](const BuilderEntry& other) {
-               return other.oracle == builder.oracle;
-           })->name == builder.name;
-}
-
 /// Returns the colliders that find pairs of overlapping boxes: only those that query a builder's tree, or all.
 inline std::vector<ColliderEntry> box_colliders(bool of_trees)
 {
