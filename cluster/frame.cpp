@@ -7,7 +7,6 @@
 #include "cluster/frame_clock.h"
 #include "collide/device_lists.h"
 #include "collide/oracles/host_collider.h"
-#include "geometry/cores.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -37,7 +36,7 @@ DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queu
     , keep_adjacent_(keep_adjacent)
     , box_count_(boxes)
     , tops_(programs, boxes)
-    , leaving_(programs)
+    , leaving_(programs, !keep_adjacent || narrow != "none")
     , halo_query_(programs, keep_adjacent)
 {
     const std::string name(collider.card().name);
@@ -71,6 +70,7 @@ void DistributedFrame::take(Share share)
                        "their device");
     collider_.reserve(tree_, *input_);
     tops_.reserve(*tree_);
+    leaving_.own(share_);
     leaving_.reserve(nullptr, *input_);
     if (!keep_adjacent_) {
         std::vector<Face> faces;
@@ -166,7 +166,7 @@ std::vector<Aabb> DistributedFrame::build()
 void DistributedFrame::start_selecting(WantedBoxes wanted)
 {
     wanted_ = std::move(wanted);
-    if (!has_tree() || wanted_.boxes.empty())
+    if (!has_tree() || wanted_.ranks.empty())
         return;
     leaving_.want(wanted_, queue_of(in_select));
     query_leaving();
@@ -181,7 +181,7 @@ void DistributedFrame::query_leaving()
 /// Returns the triangles that were found, with the rank that each leaves to.
 std::vector<Pair> DistributedFrame::selected()
 {
-    if (wanted_.boxes.empty())
+    if (wanted_.ranks.empty())
         return {};
     if (!has_tree())
         return leaving(face_boxes(share_.points, share_.faces), wanted_);
@@ -190,30 +190,25 @@ std::vector<Pair> DistributedFrame::selected()
     return leaving_.pairs(beside_);
 }
 
+/// Returns the triangles of what `selected` returned, as they are sent.
+std::vector<HaloTriangle> DistributedFrame::packed(const std::vector<Pair>& leaving)
+{
+    if (has_tree())
+        return leaving_.packed(leaving.size(), beside_);
+    const HaloTriangle own = {face_box(share_.points, share_.faces[0]), share_.ids[0],
+                              share_.scene_face(0)};
+    return std::vector(leaving.size(), own);
+}
+
 std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& leaving,
                                                      RankFrame& frame)
 {
-    // The triangles lie far apart in memory, which cores wait for: several of them at once.
-    constexpr std::size_t block = 2048, most_threads = 16;
-    packed_.resize(leaving.size());
-    on_all_cores((leaving.size() + block - 1) / block,
-                 [&](std::size_t part) {
-                     for (std::size_t k = part * block;
-                          k < std::min(leaving.size(), (part + 1) * block); ++k) {
-                         const uint triangle = leaving[k].a;
-                         packed_[k] = {face_box(share_.points, share_.faces[triangle]),
-                                       share_.ids[triangle], share_.scene_face(triangle)};
-                     }
-                 },
-                 most_threads);
-    std::vector<std::size_t> counts(ranks_.count());
-    for (const Pair& one : leaving)
-        ++counts[one.b];
     std::vector<std::vector<HaloTriangle>> to(ranks_.count());
-    for (std::size_t rank = 0; rank < counts.size(); ++rank)
-        to[rank].reserve(counts[rank]);
-    for (std::size_t k = 0; k < leaving.size(); ++k)
-        to[leaving[k].b].push_back(packed_[k]);
+    if (!leaving.empty()) {
+        const std::vector<HaloTriangle> triangles = packed(leaving);
+        for (std::size_t k = 0; k < leaving.size(); ++k)
+            to[leaving[k].b].push_back(triangles[k]);
+    }
     frame.halo_sent = leaving.size();
     frame.sent_bytes += leaving.size() * sizeof(HaloTriangle);
     std::vector<HaloTriangle> halo;

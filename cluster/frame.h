@@ -111,6 +111,7 @@ private:
     void start_selecting(WantedBoxes wanted);
     void query_leaving();
     std::vector<Pair> selected();
+    std::vector<HaloTriangle> packed(const std::vector<Pair>& leaving);
     std::vector<HaloTriangle> exchange(const std::vector<Pair>& leaving, RankFrame& frame);
     void start_halo();
     void find_halo();
@@ -139,8 +140,7 @@ private:
     Share share_;
     std::optional<Input> input_;
     const DeviceTree* tree_ = nullptr;
-    std::vector<HaloTriangle> packed_;  ///< triangles that leave, as they are sent
-    std::vector<HaloTriangle> halo_;    ///< of the last frame
+    std::vector<HaloTriangle> halo_;  ///< of the last frame
     std::vector<HaloCorners> halo_corners_;
     std::vector<Pair> pairs_of_one_;  ///< its pairs with the halo, if the rank has one triangle
 };

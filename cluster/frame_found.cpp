@@ -103,11 +103,8 @@ std::vector<Pair> DistributedFrame::right_pairs_of(const TriangleSample& sample)
     for (const auto& from : exchanged(ranks_, std::vector(ranks_.count(), own)))
         all.insert(all.end(), from.begin(), from.end());
     WantedBoxes wanted;
-    for (const HaloTriangle& one : all) {
-        wanted.ranks.push_back(static_cast<uint>(wanted.boxes.size()));
-        wanted.boxes.push_back(one.box);
-        wanted.around = merged(wanted.around, one.box);
-    }
+    for (const HaloTriangle& one : all)
+        wanted.add(static_cast<uint>(wanted.ranks.size()), {&one.box, 1});
     std::vector<Pair> pairs;
     start_selecting(std::move(wanted));
     for (const auto& [k, place] : selected()) {

@@ -31,6 +31,15 @@ bool is_empty(const Aabb& box) { return box.min_x > box.max_x; }
 
 }  // namespace
 
+void WantedBoxes::add(uint rank, std::span<const Aabb> of_rank)
+{
+    if (of_rank.empty())
+        return;
+    boxes.push_back(around(of_rank));
+    boxes.insert(boxes.end(), of_rank.begin(), of_rank.end());
+    ranks.push_back({rank, static_cast<uint>(boxes.size())});
+}
+
 WantedBoxes wanted_from(uint own, std::span<const Aabb> tops, uint ranks)
 {
     assert(tops.size() % ranks == 0);
@@ -41,12 +50,11 @@ WantedBoxes wanted_from(uint own, std::span<const Aabb> tops, uint ranks)
     for (uint rank = 0; rank < ranks; ++rank) {
         if (!sends_to(own, rank) || !overlap(around(of_rank(rank)), around_own))
             continue;
+        std::vector<Aabb> parts;
         for (const Aabb& box : of_rank(rank))
-            if (const Aabb part = part_inside(box, of_rank(own)); !is_empty(part)) {
-                wanted.boxes.push_back(part);
-                wanted.ranks.push_back(rank);
-                wanted.around = merged(wanted.around, part);
-            }
+            if (const Aabb part = part_inside(box, of_rank(own)); !is_empty(part))
+                parts.push_back(part);
+        wanted.add(rank, parts);
     }
     return wanted;
 }
@@ -55,12 +63,13 @@ std::vector<Pair> leaving(std::span<const Aabb> boxes, const WantedBoxes& wanted
 {
     std::vector<Pair> all;
     for (uint triangle = 0; triangle < boxes.size(); ++triangle) {
-        if (!overlap(boxes[triangle], wanted.around))
-            continue;
-        for (std::size_t k = 0; k < wanted.boxes.size(); ++k) {
-            const Pair one = {triangle, wanted.ranks[k]};
-            if (overlap(boxes[triangle], wanted.boxes[k]) && (all.empty() || all.back() != one))
-                all.push_back(one);
+        uint begin = 0;
+        for (const auto& [rank, end] : wanted.ranks) {
+            const auto of_rank = std::span(wanted.boxes).subspan(begin, end - begin);
+            begin = end;
+            if (std::ranges::any_of(of_rank.subspan(1),
+                                    [&](const Aabb& box) { return overlap(boxes[triangle], box); }))
+                all.push_back({triangle, rank});
         }
     }
     return all;

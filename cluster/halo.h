@@ -28,11 +28,16 @@ constexpr bool sends_to(uint from, uint to)
     return from != to && to == (to_first ? std::min(from, to) : std::max(from, to));
 }
 
-/// The boxes of other ranks that a rank's triangles are tested against, by rank.
+/// The boxes of other ranks that a rank's triangles are tested against.
 struct WantedBoxes {
-    std::vector<Aabb> boxes;
-    std::vector<uint> ranks;    ///< of each box, ascending
-    Aabb around = empty_box();  ///< of all boxes
+    struct OfRank {
+        uint rank, end;  ///< `end`: where its boxes end
+    };
+    std::vector<Aabb> boxes;    ///< of each rank the box around its boxes, then these
+    std::vector<OfRank> ranks;  ///< ascending
+
+    /// Adds the boxes of one more rank, unless there are none.
+    void add(uint rank, std::span<const Aabb> of_rank);
 };
 
 /// Returns the boxes, among `tops`, equally many of each of `ranks` ranks one after the other, of the ranks that `own` sends to.

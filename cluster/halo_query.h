@@ -4,17 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "cluster/halo_triangle.h"
 #include "collide/device_collider.h"
 
 namespace bvhbench {
-
-/// A triangle of another rank, as it is sent: 40 bytes.
-struct HaloTriangle {
-    Aabb box;
-    uint id;        ///< in the scene
-    Face vertices;  ///< in the scene
-};
-static_assert(sizeof(HaloTriangle) == 40);
 
 /// Finds the pairs of a tree's triangles with triangles of other ranks. In its pairs, halo triangle k has the number of the tree's
 /// triangles + k.

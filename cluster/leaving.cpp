@@ -11,29 +11,50 @@ constexpr std::size_t leaving_at_first = 4096;  // triangles that leave; grows
 
 }  // namespace
 
-Leaving::Leaving(Programs& programs)
+Leaving::Leaving(Programs& programs, bool with_vertices)
     : DeviceCollider(programs, {"leaving", "Triangles that meet boxes of other ranks"},
                      {.capacity = leaving_at_first}, leaf_group_size, Wants::no_tree)
+    , with_vertices_(with_vertices)
 {}
 
 void Leaving::want(const WantedBoxes& wanted, Queue& queue)
 {
-    std::vector<Aabb> boxes = wanted.boxes;
-    boxes.push_back(wanted.around);
-    if (boxes_.size() < boxes.size())
+    if (boxes_.size() < wanted.boxes.size() || ranks_.size() < wanted.ranks.size())
         take_memory(wanted_arena_, device(), [&](Arena& arena) {
-            boxes_ = arena.take<Aabb>(boxes.size(), Use::scratch);
-            ranks_ = arena.take<uint>(wanted.boxes.size(), Use::scratch);
+            boxes_ = arena.take<Aabb>(wanted.boxes.size(), Use::scratch);
+            ranks_ = arena.take<WantedBoxes::OfRank>(wanted.ranks.size(), Use::scratch);
         });
-    boxes_.upload(queue.cl(), boxes);
+    boxes_.upload(queue.cl(), wanted.boxes);
     ranks_.upload(queue.cl(), wanted.ranks);
-    wanted_count_ = static_cast<uint>(wanted.boxes.size());
+    rank_count_ = static_cast<uint>(wanted.ranks.size());
+}
+
+std::vector<HaloTriangle> Leaving::packed(std::size_t count, const Queue& queue) const
+{
+    return first_entries(packed_, count, queue, "the triangles that leave");
 }
 
 void Leaving::compile(const Input&)
 {
-    kernel_ = programs().kernel("cluster/leaving.cl", "leaving",
-                                {{"GROUP_SIZE", group_size_}, {"KEEP_ADJACENT", 1u}});
+    const std::vector<Define> defines = {{"GROUP_SIZE", group_size_},
+                                         {"KEEP_ADJACENT", 1u},
+                                         {"WITH_VERTICES", with_vertices_ ? 1u : 0u}};
+    kernel_ = programs().kernel("cluster/leaving.cl", "leaving", defines);
+    pack_ = programs().kernel("cluster/leaving.cl", "pack", defines);
+}
+
+void Leaving::plan(Arena& arena)
+{
+    ids_ = arena.take<uint>(share_->ids.size(), Use::scratch);
+    vertices_ = arena.take<uint>(with_vertices_ ? share_->vertices.size() : 1, Use::scratch);
+    packed_ = arena.take<HaloTriangle>(pairs_.size(), Use::scratch);
+}
+
+void Leaving::fill(const cl::CommandQueue& queue)
+{
+    ids_.upload(queue, share_->ids);
+    if (with_vertices_)
+        vertices_.upload(queue, share_->vertices);
 }
 
 std::int64_t Leaving::reads_at_least() const
@@ -43,9 +64,13 @@ std::int64_t Leaving::reads_at_least() const
 
 void Leaving::enqueue(const Input& input, Queue& queue)
 {
+    const uint room = static_cast<uint>(pairs_.size());
     set_arguments(kernel_, input.device_points, input.device_faces, triangles_, boxes_, ranks_,
-                  wanted_count_, pairs_, static_cast<uint>(pairs_.size()), counters_);
+                  rank_count_, pairs_, room, counters_);
     launch(kernel_, triangles_, group_size_, queue);
+    set_arguments(pack_, input.device_points, input.device_faces, ids_, vertices_, pairs_, room,
+                  counters_, packed_);
+    launch(pack_, room, group_size_, queue);
 }
 
 }  // namespace bvhbench

@@ -123,8 +123,8 @@ void DeviceCollider::take_all()
         const bool with_ropes = tree_ != nullptr && has_ropes(*tree_);
         ropes_ = arena.take<uint>(with_ropes ? 2 * std::size_t{triangles_} - 1 : 1, Use::scratch);
         has_written_ropes_ = false;
-        plan(arena);
         pairs_ = arena.take<Pair>(pair_room_, Use::scratch);
+        plan(arena);
     });
     for (Buffer<uint>* zeroed : {&counters_, &next_counters_})
         zeroed->upload(queue, std::vector<uint>(zeroed->size()));

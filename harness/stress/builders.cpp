@@ -116,7 +116,8 @@ Findings judge_builder(SceneUnderStress& scene, const PipelineChoice& alone)
     const BuilderChoice& choice = alone.builder;
     const Input& input = scene.input();
     std::string wrong;
-    Findings findings = settled(scene.session, false, [&]() -> Findings {
+    // A group size that was asked for may be unsupported, or need too much local memory.
+    Findings findings = settled(scene.session, choice.group_size != 0, [&]() -> Findings {
         bool is_refused = false;
         wrong = broken_contract(scene.session, choice, input, scene.oracle(), &is_refused);
         if (!is_refused)

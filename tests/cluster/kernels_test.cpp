@@ -72,16 +72,33 @@ TEST_P(Halves, LeavingTrianglesAreThoseOfTheHost)
         for (uint k = 0; k < usual_top_boxes; ++k)
             tops.push_back(k < 20 ? face_box(mesh_.points, others_[20 * rank + k]) : empty_box());
     const WantedBoxes wanted = wanted_from(0, tops, 4);
-    Leaving leaving(session().programs());
-    leaving.reserve(nullptr, input_);
-    leaving.want(wanted, queue());
-    find_pairs(leaving, nullptr, input_, queue());
-    std::vector<Pair> found = leaving.pairs(queue());
-    std::ranges::sort(found,
-                      [](Pair a, Pair b) { return std::tie(a.a, a.b) < std::tie(b.a, b.b); });
     const std::vector<Pair> right = bvhbench::leaving(face_boxes(mesh_.points, own_), wanted);
     EXPECT_FALSE(right.empty());
-    EXPECT_EQ(found, right);
+    Share share = {{}, own_, mesh_.points, {}};
+    for (uint k = 0; k < own_.size(); ++k)
+        share.ids.push_back(3 * k + 5);
+    for (uint k = 0; k < mesh_.points.size(); ++k)
+        share.vertices.push_back(2 * k + 7);
+    for (const bool with_vertices : {false, true}) {
+        Leaving leaving(session().programs(), with_vertices);
+        leaving.own(share);
+        leaving.reserve(nullptr, input_);
+        leaving.want(wanted, queue());
+        find_pairs(leaving, nullptr, input_, queue());
+        std::vector<Pair> found = leaving.pairs(queue());
+        const std::vector<HaloTriangle> packed = leaving.packed(found.size(), queue());
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            const uint own = found[k].a;
+            EXPECT_TRUE(same(packed[k].box, face_box(mesh_.points, own_[own])));
+            EXPECT_EQ(packed[k].id, share.ids[own]);
+            const Face face = share.scene_face(own), vertices = packed[k].vertices;
+            EXPECT_TRUE(!with_vertices ||
+                        (face.a == vertices.a && face.b == vertices.b && face.c == vertices.c));
+        }
+        std::ranges::sort(found,
+                          [](Pair a, Pair b) { return std::tie(a.a, a.b) < std::tie(b.a, b.b); });
+        EXPECT_EQ(found, right);
+    }
 }
 
 TEST_P(Halves, PairsWithTheHaloAreThoseOfTheDefinition)
