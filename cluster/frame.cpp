@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "cluster/frame_clock.h"
 #include "collide/device_lists.h"
@@ -117,7 +118,7 @@ RankFrame DistributedFrame::run()
     const std::vector<Pair> leaving = selected();
     clock.end_stage();
 
-    halo_ = exchange(leaving, frame);
+    exchange(leaving, frame);
     clock.end_stage();
 
     // It goes on with the halo as well while the host reads whether the lists had room.
@@ -190,44 +191,41 @@ std::vector<Pair> DistributedFrame::selected()
     return leaving_.pairs(beside_);
 }
 
-/// Returns the triangles of what `selected` returned, as they are sent.
-std::vector<HaloTriangle> DistributedFrame::packed(const std::vector<Pair>& leaving)
+/// Puts the triangles of what `selected` returned into `packed_`.
+void DistributedFrame::pack(std::size_t count)
 {
     if (has_tree())
-        return leaving_.packed(leaving.size(), beside_);
-    const HaloTriangle own = {face_box(share_.points, share_.faces[0]), share_.ids[0],
-                              share_.scene_face(0)};
-    return std::vector(leaving.size(), own);
+        return leaving_.read_packed(packed_, count, beside_);
+    packed_.assign(count, {});
+    for (HaloTriangle& own : packed_)
+        own = {face_box(share_.points, share_.faces[0]), share_.ids[0], share_.scene_face(0)};
 }
 
-std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& leaving,
-                                                     RankFrame& frame)
+void DistributedFrame::exchange(const std::vector<Pair>& leaving, RankFrame& frame)
 {
-    std::vector<std::vector<HaloTriangle>> to(ranks_.count());
-    if (!leaving.empty()) {
-        const std::vector<HaloTriangle> triangles = packed(leaving);
-        for (std::size_t k = 0; k < leaving.size(); ++k)
-            to[leaving[k].b].push_back(triangles[k]);
-    }
-    frame.halo_sent = leaving.size();
-    frame.sent_bytes += leaving.size() * sizeof(HaloTriangle);
-    std::vector<HaloTriangle> halo;
-    for (const std::vector<HaloTriangle>& from : exchanged(ranks_, std::move(to)))
-        halo.insert(halo.end(), from.begin(), from.end());
-    frame.halo_received = halo.size();
-    if (contacts_) {
-        std::vector<std::vector<HaloCorners>> corners(ranks_.count());
-        for (const auto& [triangle, rank] : leaving) {
-            const Face face = share_.faces[triangle];
-            corners[rank].push_back(
-                {{share_.points[face.a], share_.points[face.b], share_.points[face.c]}});
+    pack(leaving.size());
+    std::vector<std::uint64_t> counts(ranks_.count()), next(ranks_.count());
+    for (const Pair& one : leaving)
+        ++counts[one.b];
+    std::exclusive_scan(counts.begin(), counts.end(), next.begin(), std::uint64_t{0});
+    sent_.resize(leaving.size());
+    sent_corners_.resize(contacts_ ? leaving.size() : 0);
+    for (std::size_t k = 0; k < leaving.size(); ++k) {
+        const std::uint64_t place = next[leaving[k].b]++;
+        sent_[place] = packed_[k];
+        if (contacts_) {
+            const Face face = share_.faces[leaving[k].a];
+            sent_corners_[place] = {
+                {share_.points[face.a], share_.points[face.b], share_.points[face.c]}};
         }
-        frame.sent_bytes += leaving.size() * sizeof(HaloCorners);
-        halo_corners_.clear();
-        for (const auto& from : exchanged(ranks_, std::move(corners)))
-            halo_corners_.insert(halo_corners_.end(), from.begin(), from.end());
     }
-    return halo;
+    exchange_by_rank<HaloTriangle>(ranks_, sent_, counts, halo_);
+    if (contacts_)
+        exchange_by_rank<HaloCorners>(ranks_, sent_corners_, counts, halo_corners_);
+    frame.halo_sent = leaving.size();
+    frame.sent_bytes +=
+        sent_.size() * sizeof(HaloTriangle) + sent_corners_.size() * sizeof(HaloCorners);
+    frame.halo_received = halo_.size();
 }
 
 /// Enqueues the test of the halo against the tree, and lets what follows in `beside_` run after all that was enqueued before.

@@ -111,8 +111,8 @@ private:
     void start_selecting(WantedBoxes wanted);
     void query_leaving();
     std::vector<Pair> selected();
-    std::vector<HaloTriangle> packed(const std::vector<Pair>& leaving);
-    std::vector<HaloTriangle> exchange(const std::vector<Pair>& leaving, RankFrame& frame);
+    void pack(std::size_t count);
+    void exchange(const std::vector<Pair>& leaving, RankFrame& frame);
     void start_halo();
     void find_halo();
     void find_contacts();
@@ -140,6 +140,9 @@ private:
     Share share_;
     std::optional<Input> input_;
     const DeviceTree* tree_ = nullptr;
+    // Kept from frame to frame, because new pages take longer than the messages.
+    std::vector<HaloTriangle> packed_, sent_;  ///< triangles that leave, as found and by rank
+    std::vector<HaloCorners> sent_corners_;
     std::vector<HaloTriangle> halo_;  ///< of the last frame
     std::vector<HaloCorners> halo_corners_;
     std::vector<Pair> pairs_of_one_;  ///< its pairs with the halo, if the rank has one triangle

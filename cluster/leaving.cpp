@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cluster/leaving.h"
 
-#include "collide/device_lists.h"
+#include <cassert>
+
 #include "collide/parameters.h"
 
 namespace bvhbench {
@@ -29,9 +30,14 @@ void Leaving::want(const WantedBoxes& wanted, Queue& queue)
     rank_count_ = static_cast<uint>(wanted.ranks.size());
 }
 
-std::vector<HaloTriangle> Leaving::packed(std::size_t count, const Queue& queue) const
+void Leaving::read_packed(std::vector<HaloTriangle>& packed, std::size_t count,
+                          const Queue& queue) const
 {
-    return first_entries(packed_, count, queue, "the triangles that leave");
+    assert(count <= packed_.size());
+    packed.resize(count);
+    if (count > 0)
+        queue.cl().enqueueReadBuffer(packed_.cl(), CL_TRUE, 0, count * sizeof(HaloTriangle),
+                                     packed.data());
 }
 
 void Leaving::compile(const Input&)

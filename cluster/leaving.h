@@ -21,8 +21,9 @@ public:
     /// Uploads the boxes that the next query tests triangles against; at least one. Waits.
     void want(const WantedBoxes& wanted, Queue& queue);
 
-    /// Returns the triangle of each of the `count` pairs that the last query found, once it is complete. Blocks.
-    std::vector<HaloTriangle> packed(std::size_t count, const Queue& queue) const;
+    /// Reads the triangle of each of the `count` pairs that the last query found, once it is complete. Blocks.
+    void read_packed(std::vector<HaloTriangle>& packed, std::size_t count,
+                     const Queue& queue) const;
 
 private:
     void compile(const Input& input) override;

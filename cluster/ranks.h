@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -85,6 +86,28 @@ std::vector<std::vector<T>> exchanged(Ranks& ranks, std::vector<std::vector<T>> 
     }
     ranks.exchange(sent, received);
     return from;
+}
+
+/// Sends the values of `to`, in which `counts[r]` values for rank r follow those for the ranks before it; none to itself. Fills `from`
+/// with the values that all others sent to this one, by rank.
+template <class T>
+void exchange_by_rank(Ranks& ranks, std::span<const T> to, std::span<const std::uint64_t> counts,
+                      std::vector<T>& from)
+{
+    static_assert(std::is_trivially_copyable_v<T>, "messages are plain bytes");
+    assert(counts.size() == ranks.count() && counts[ranks.rank()] == 0);
+    const std::vector<std::uint64_t> coming = ranks.exchanged(counts);
+    from.resize(std::reduce(coming.begin(), coming.end()));
+    std::vector<std::span<const std::byte>> sent;
+    std::vector<std::span<std::byte>> received;
+    std::span<T> room = from;
+    for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+        sent.push_back(std::as_bytes(to.first(counts[rank])));
+        received.push_back(std::as_writable_bytes(room.first(coming[rank])));
+        to = to.subspan(counts[rank]);
+        room = room.subspan(coming[rank]);
+    }
+    ranks.exchange(sent, received);
 }
 
 constexpr uint first_rank = 0;  ///< gathers what all ranks have found
