@@ -20,14 +20,12 @@ HaloQuery::HaloQuery(Programs& programs, bool keep_adjacent)
 void HaloQuery::bring(std::span<const HaloTriangle> halo, Queue& queue)
 {
     const bool keeps_adjacent = options_.keep_adjacent;
-    std::vector<Aabb> boxes;
-    std::vector<Face> faces;
-    boxes.reserve(halo.size());
-    faces.reserve(keeps_adjacent ? 0 : halo.size());
+    halo_boxes_.clear();
+    halo_faces_.clear();
     for (const HaloTriangle& one : halo) {
-        boxes.push_back(one.box);
+        halo_boxes_.push_back(one.box);
         if (!keeps_adjacent)
-            faces.push_back(one.vertices);
+            halo_faces_.push_back(one.vertices);
     }
     if (boxes_.size() < halo.size()) {
         const std::size_t room = halo.size() + halo.size() / 8;
@@ -38,10 +36,10 @@ void HaloQuery::bring(std::span<const HaloTriangle> halo, Queue& queue)
         if (!keeps_adjacent)
             faces_.upload(queue.cl(), own_faces_);
     }
-    boxes_.upload(queue.cl(), boxes);
+    boxes_.upload(queue.cl(), halo_boxes_);
     if (!keeps_adjacent)
         queue.cl().enqueueWriteBuffer(faces_.cl(), CL_TRUE, own_faces_.size() * sizeof(Face),
-                                      faces.size() * sizeof(Face), faces.data());
+                                      halo_faces_.size() * sizeof(Face), halo_faces_.data());
     halo_count_ = static_cast<uint>(halo.size());
 }
 

@@ -31,6 +31,8 @@ private:
 
     cl::Kernel kernel_;
     std::vector<Face> own_faces_;
+    std::vector<Aabb> halo_boxes_;  ///< as they are uploaded; kept, because new pages take long
+    std::vector<Face> halo_faces_;
     std::optional<Arena> halo_arena_;
     Buffer<Aabb> boxes_;
     Buffer<Face> faces_;  ///< the tree's, then the halo's; a single one if adjacent pairs are kept

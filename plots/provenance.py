@@ -23,10 +23,11 @@ SKIPS = "collide/skips.cpp"  # rules, and where each is off
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
-          "narrow": ("collide/narrow/",), "near": ("collide/near",), "exchange": ("cluster/",)}
+          "narrow": ("collide/narrow/",), "near": ("collide/near",)}
+OF_RANKS = {"exchange": ("cluster/",)}  # of several: one rank has nothing to exchange
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
-OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "exchange")  # of several devices
+OF_FRAME = ("bounds", "codes", "sort", "hierarchy")  # of `bvhbench cluster`
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh": ("oibvh/", "builders/implicit/"),
             "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
@@ -50,7 +51,7 @@ class Work(NamedTuple):
         if collider == "grid":
             return of_collider
         own = next((paths for name, paths in BUILDERS.items() if self.builder.startswith(name)), ())
-        stages = {path for stage in self.stages for path in (STAGES | OF_SWEPT).get(stage, own if stage in OF_BUILDER else ())}
+        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_SWEPT).get(stage, own if stage in OF_BUILDER else ())}
         return of_collider | (stages - set(own) if self.builder == "oibvh-host" else stages)
 
 
@@ -84,11 +85,13 @@ def programs(document: dict[str, Any]) -> Iterator[tuple[str, bool]]:
 
 
 def works(document: dict[str, Any]) -> set[Work]:
-    """Returns what the cells of a result file did, or its frames. All kernels were launched for `bvhbench stress`."""
+    """Returns what the cells of a result file did, or its frames. `bvhbench stress` launches all kernels but those of
+    several ranks."""
     cells = [Cell(raw) for raw in document.get("cells", [])]
     found = {Work(cell.builder, cell.collider or "", tuple(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
                                                            for stage in cell.samples[0])) for cell in cells if cell.samples}
-    found |= {Work(frame["builder"]["name"], frame.get("collider", {}).get("name", ""), OF_FRAME) for frame in frames(document)}
+    found |= {Work(frame["builder"]["name"], frame.get("collider", {}).get("name", ""),
+                   (*OF_FRAME, *(OF_RANKS if len(frame["ranks"]) > 1 else ()))) for frame in frames(document)}
     if document.get("stress"):
         found |= {Work(builder, collider, (*STAGES, *OF_BUILDER)) for builder in BUILDERS for collider in COLLIDERS}
     return found
