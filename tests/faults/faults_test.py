@@ -3,7 +3,7 @@
 
 Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so>
 
-FAULT_KILLS is the number of kills in a test (default 10), FAULT_SEED seeds their times (default 1).
+FAULT_KILLS is the number of kills in a test (default 5), FAULT_SEED seeds their times (default 1).
 """
 import contextlib
 import json
@@ -19,7 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
 from program import SOURCE, at_work, copied_kernels, expect, experiment, main, only, planted_karras, run, valid  # noqa: E402
 
 SHIM = str(pathlib.Path(sys.argv[3]).resolve())
-KILLS, SEED = int(os.environ.get("FAULT_KILLS", 10)), int(os.environ.get("FAULT_SEED", 1))
+KILLS, SEED = int(os.environ.get("FAULT_KILLS", 5)), int(os.environ.get("FAULT_SEED", 1))
 BUILD = ("build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "1")
 
 

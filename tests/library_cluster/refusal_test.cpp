@@ -192,7 +192,7 @@ TEST_F(ClusterLibraryRefuses, TooLittleMemoryOfOneRankOnAllRanks)
     const std::size_t all = tree.memory();
     LibraryMesh packed;  // many more pairs than lists have room for at first
     packed.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    packed.faces.assign(600, {0, 1, 2});
+    packed.faces.assign(1200, {0, 1, 2});
     const OwnTriangles more = scattered_part(packed);
     const auto hold = [&](std::size_t limit, bool fails_in_frame) {
         ClusterOptions options;

@@ -14,6 +14,7 @@ from typing import Any
 
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 GOLDEN = ROOT / "tests" / "golden"
+ALL_CASES = os.environ.get("BVHBENCH_TESTS") == "all"  # .ci/nightly
 sys.path.insert(0, str(ROOT / "plots"))
 Raw = dict[str, Any]
 

@@ -23,8 +23,8 @@ from output import WrongUsage
 BILLION, HALO = ROOT / "results" / "h200" / "cluster-billion.json.xz", ROOT / "results" / "pocl-2-cores" / "cluster-halo.json.xz"
 
 
-def on_two() -> dict:
-    """Returns a result of `cluster` on two ranks."""
+def on_four() -> dict:
+    """Returns a result of `cluster` on four ranks."""
     return clusters.read(BILLION)["runs"][0]["result"]
 
 
@@ -55,12 +55,6 @@ class Model(unittest.TestCase):
         for count in (2, 8, 64):
             self.assertAlmostEqual(ranks.model_s(one, two, count, True), 10e-3 + 100e-6 + (25_000 * 40 + (count - 1) * 64 * 24) / 5e9, 9)
 
-    def test_what_the_document_says_of_the_model(self) -> None:
-        runs = clusters.measured(clusters.read(ROOT / "results" / "h200" / "cluster-strong.json.xz"))
-        one, last = runs[0], runs[-1]
-        for count, speed_up in ((4, 3.73), (8, 7.13)):
-            self.assertAlmostEqual(one["frame_ns"] / 1e9 / ranks.model_s(one, last, count, False), speed_up, delta=0.005)
-
     def test_stages_are_medians_of_each_rank(self) -> None:
         run, = clusters.measured(file("strong", cell(3, 1000, 1, 1)))
         self.assertEqual(ranks.stages_s(run), {"build": [0.001, 0.002, 0.003]})
@@ -83,17 +77,17 @@ class Table(unittest.TestCase):
         self.assertIn("torus:4000 on 4 ranks: two devices match\n", console.text(file("strong", cell(1, 4000, 10, 0), failed)))
 
     def test_a_file_of_cluster_has_its_ranks_stages_and_verdict(self) -> None:
-        text = console.text(on_two())
-        for words in ("torus:1000000000: 1,000,000,000 triangles, block over oibvh-multi along hilbert48, adjacent keep, narrow none, 2 ranks, rcb\n",
+        text = console.text(on_four())
+        for words in ("torus:1000000000: 1,000,000,000 triangles, block over oibvh-multi along hilbert48, adjacent keep, narrow none, 4 ranks, rcb\n",
                       "agrees with the other partition, brute over a sample, 6,366,301,999 pairs, set hash "):
             self.assertIn(words, text)
         rows = [line.split() for line in text.splitlines()]
-        self.assertEqual([row[0] for row in rows if "vm" in row[1:2]], ["0", "1"])
+        self.assertEqual([row[0] for row in rows if "vm" in row[1:2]], ["0", "1", "2", "3"])
         build = next(row for row in rows if row[:2] == ["rank", "clock"]).index("build")
-        self.assertEqual(sum(row[1:2] == ["host"] and row[0] in "01" and float(row[build]) > 0 for row in rows), 2)
+        self.assertEqual(sum(row[1:2] == ["host"] and row[0] in "0123" and float(row[build]) > 0 for row in rows), 4)
 
     def test_a_file_without_times_says_so(self) -> None:
-        document = on_two()
+        document = on_four()
         del document["frame_ns"], document["partition_ns"]
         for rank in document["ranks"]:
             rank["samples"] = []
@@ -118,10 +112,6 @@ class Table(unittest.TestCase):
             broken.flush()
             with self.assertRaisesRegex(Refused, r"not a file of `bvhbench cluster`: ranks\[0\].halo_sent_count is less than 0"):
                 clusters.read(broken.name)
-
-    def test_what_the_document_says_was_measured(self) -> None:
-        for name, factor in (("strong", "3.34"), ("weak", "3.55")):
-            self.assertIn(factor, console.text(clusters.read(ROOT / "results" / "h200" / f"cluster-{name}.json.xz")), name)
 
 
 class Compared(unittest.TestCase):

@@ -1,7 +1,8 @@
 from collections.abc import Callable
 
-from clusters import stage_times
+from clusters import measured, stage_times
 from quotes import Document, File, frame_ms
+from ranks import model_s
 
 
 def quotes(doc: Document) -> None:
@@ -64,6 +65,9 @@ def quotes(doc: Document) -> None:
     doc.says("Of soup:1000000 {} % go to another of 8 ranks with\n`rcb`, {} % with `curve`", halo("cluster-halo-soup", "rcb"),
              halo("cluster-halo-soup", "curve"))
 
-    doc.says("times on 4 ranks for torus:67108864, where {} was measured", times("strong")[0] / times("strong")[2])
+    strong = measured(File("h200/cluster-strong").document)
+    model = [strong[0]["frame_ns"] * 1e-9 / model_s(strong[0], strong[-1], ranks, False) for ranks in (4, 8)]
+    doc.says("It gives {} times on 4 ranks for torus:67108864, where {} was measured, and {} on 8", model[0],
+             times("strong")[0] / times("strong")[2], model[1])
     doc.says("{} ms on the rank that sends to two others, the test of those that came, {} ms", most("strong", "select"),
              most("strong", "halo"))
