@@ -43,7 +43,7 @@ protected:
     /// Compiles for frames like `input`; sets the initial buffer sizes and `queue_count_`.
     virtual void compile(const Input& input) = 0;
 
-    /// Allocates buffers other than counters and pairs, which has its size. Runs twice; the first run measures only.
+    /// Allocates buffers other than counters and pairs. `pairs_` has its size before. Runs twice; the first run measures only.
     virtual void plan(Arena& arena) = 0;
 
     /// `save` downloads what must survive a reallocation. `fill` uploads constant inputs of queries to new memory. Both block.

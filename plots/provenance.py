@@ -24,10 +24,10 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
           "narrow": ("collide/narrow/",), "near": ("collide/near",)}
-OF_RANKS = {"exchange": ("cluster/",)}  # of several: one rank has nothing to exchange
+OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
-OF_FRAME = ("bounds", "codes", "sort", "hierarchy")  # of `bvhbench cluster`
+OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh": ("oibvh/", "builders/implicit/"),
             "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
@@ -91,7 +91,7 @@ def works(document: dict[str, Any]) -> set[Work]:
     found = {Work(cell.builder, cell.collider or "", tuple(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
                                                            for stage in cell.samples[0])) for cell in cells if cell.samples}
     found |= {Work(frame["builder"]["name"], frame.get("collider", {}).get("name", ""),
-                   (*OF_FRAME, *(OF_RANKS if len(frame["ranks"]) > 1 else ()))) for frame in frames(document)}
+                   (*OF_FRAME, *(("exchange",) if len(frame["ranks"]) > 1 else ()))) for frame in frames(document)}
     if document.get("stress"):
         found |= {Work(builder, collider, (*STAGES, *OF_BUILDER)) for builder in BUILDERS for collider in COLLIDERS}
     return found

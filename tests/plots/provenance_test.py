@@ -66,9 +66,15 @@ class Kernels(InFolder):
         self.assertEqual(provenance.Work("embree-low", "", ("bounds", "hierarchy")).places(True), {"builders/stages/bounds"})
         self.assertEqual(provenance.Work("none", "culbvh", ("build", "broad")).places(False), set())
 
+    def test_of_one_rank_are_not_those_of_an_exchange(self) -> None:
+        for ranks, place in ((1, "cluster/top_boxes"), (2, "cluster/")):
+            work, = provenance.works({"ranks": [{}] * ranks, "builder": {"name": "oibvh-multi"}})
+            self.assertIn(place, work.places(False))
+            self.assertEqual("cluster/" in work.places(False), ranks > 1)
+
     def test_have_places_that_are_there(self) -> None:
-        places = [path for table in (provenance.STAGES, provenance.BUILDERS, provenance.COLLIDERS) for paths in table.values()
-                  for path in paths]
+        tables = (provenance.STAGES, provenance.OF_RANKS, provenance.BUILDERS, provenance.COLLIDERS)
+        places = [path for table in tables for paths in table.values() for path in paths]
         kernels = [str(path.relative_to(ROOT)) for ending in ("*.cl", "*.clh") for path in ROOT.rglob(ending)]
         self.assertEqual([place for place in places if not any(path.startswith(place) for path in kernels)], [])
 
