@@ -9,8 +9,8 @@ from quotes import ROOT, Document
 def quotes(doc: Document) -> None:
     doc.under("## NVIDIA H200")
     run = results.everything(ROOT / "results" / "h200" / "builders.json.xz")
-    ours = {scene: [row for row in rows if not row.build.outside] for scene, rows in builder_rows.of_run(run).items()}
-    for scene, rows in ours.items():
+    there = builder_rows.of_run(run)
+    for scene, rows in there.items():
         for row in rows:
             on_host = row.build.on_host
             of_device = row.counter("device_peak_bytes")
@@ -18,7 +18,7 @@ def quotes(doc: Document) -> None:
             query = (f"{row.query_ns * 1e-6:.3f}", f"{row.frame_ns * 1e-6:.3f}", f"`{row.collider}`") if row.best else ("-",) * 3
             doc.row(f"{scene} | `{row.build.builder}`{' (host)' if on_host else ''}", row.rate(), row.rate("hierarchy"), peak,
                     tables.size(row.counter("tree_bytes")), row.counter("sah_cost"), *query)
-    rows = {(row.build.scene, row.build.builder): row for there in ours.values() for row in there}
+    rows = {(row.build.scene, row.build.builder): row for those in there.values() for row in those}
     doc.says("bunny ({} and {} ms)", *(rows["bunny", builder].query_ns * 1e-6 for builder in ("hploc", "apetrei-fused")))
     slower = [rows[scene, "apetrei-fused"].rate("hierarchy") / rows[scene, "hploc"].rate("hierarchy")
               for scene in dict.fromkeys(scene for scene, _ in rows)]

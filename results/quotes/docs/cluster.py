@@ -26,8 +26,9 @@ def quotes(doc: Document) -> None:
     doc.says("the busiest device works for {} of {} ms. The own triangles take {} ms, the exchange {} on", most("strong-buddha", ""),
              times("strong-buddha")[2], most("strong-buddha", "self"), most("strong-buddha", "exchange", "host_ns"))
     hairball = File("h200/cluster-strong-hairball").document["runs"][2]["result"]
-    doc.says("The hairball: {} % of the triangles leave. Testing them takes {} ms on the device that receives most and {} on the one that "
-             "receives least, more than the own triangles ({})", 100 * hairball["halo_share"], most("strong-hairball", "halo"),
+    doc.says("The hairball: the busiest device works for {} of {} ms. {} % of the triangles leave. Testing them takes {} ms on the device "
+             "that receives most and {} on the one that receives least; the own triangles take {}", most("strong-hairball", ""),
+             times("strong-hairball")[2], 100 * hairball["halo_share"], most("strong-hairball", "halo"),
              most("strong-hairball", "halo", pick=min), most("strong-hairball", "self"))
     doc.says("and 8,000,000 have {}", hairball["pairs_count"])
 
@@ -48,8 +49,8 @@ def quotes(doc: Document) -> None:
     only = largest["ranks"][0]
     doc.says("the largest scene that was run on one: {} ms a frame, {} ns a triangle, {} pairs", frame_ms(largest),
              largest["frame_ns"] / largest["scene"]["triangles"], largest["pairs_count"])
-    doc.says("It took {} GB of the device's memory and {} of the\nhost's. The file predicts {} GB", only["device_peak_bytes"] * 1e-9,
-             only["host_peak_bytes"] * 1e-9, only["predicted_device_bytes"] * 1e-9)
+    doc.says("It took {} GB of the device's memory, predicted as\n{}, and {} of the host's",
+             *(only[key] * 1e-9 for key in ("device_peak_bytes", "predicted_device_bytes", "host_peak_bytes")))
 
     for scene, size, boxes in (("filled", "", "50,000"), ("filled", "-large", "9,300,000"), ("hollow", "", "50,000"),
                                ("hollow", "-large", "9,300,000")):
