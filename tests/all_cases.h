@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdlib>
+#include <initializer_list>
+#include <numeric>
 #include <string_view>
 
 namespace bvhbench {
@@ -17,5 +19,12 @@ inline bool tests_take(std::string_view how_many)
 
 inline bool takes_all_cases() { return tests_take("all"); }
 inline bool takes_few_cases() { return tests_take("few"); }
+
+/// Whether to take this combination of the values of three or more settings, given by their numbers: at night always, otherwise every
+/// other one. Each two values of two settings are together in one that is taken.
+inline bool takes_combination(std::initializer_list<int> values)
+{
+    return takes_all_cases() || std::accumulate(values.begin(), values.end(), 0) % 2 == 0;
+}
 
 }  // namespace bvhbench

@@ -96,7 +96,9 @@ TEST_P(Objects, AreHeldAgainstEachOtherByEveryCollider)
             for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
                 for (const std::size_t capacity : {0u, 1u}) {
                     const bool is_usual = among == Among::between_objects && capacity == 0;
-                    if (!is_usual && !is_to_query)
+                    if ((!is_usual && !is_to_query) ||
+                        !takes_combination({options().sorted_leaves, form == KernelForm::groups,
+                                            static_cast<int>(capacity)}))
                         continue;
                     SCOPED_TRACE(std::string(name) + ' ' + name_of(form) + ' ' +
                                  std::to_string(static_cast<int>(among)) + " capacity " +
