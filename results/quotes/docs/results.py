@@ -28,8 +28,9 @@ def which(doc: Document) -> None:
              "16 threads of the host {} to {} times", *(end for both in times[1:] for end in both))
     doc.under("## And without a GPU")
     best = families("pocl-2-cores")
-    doc.says("implicit trees take {} to {} times the best, radix trees {} to {} times, Embree {} to {} and front tracking {} to {}.",
-             *(end for family in ("implicit trees", "radix trees", "Embree", "front tracking")
+    doc.says("implicit trees take {} to {} times the best, radix trees {} to {} times, Embree {} to {}, a hierarchical grid {} to {} and "
+             "front tracking {} to {}.",
+             *(end for family in ("implicit trees", "radix trees", "Embree", "hierarchical grid", "front tracking")
                for end in ends([row.ratio for row in best[family]])))
 
 
