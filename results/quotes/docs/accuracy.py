@@ -37,6 +37,14 @@ def narrow(doc: Document) -> None:
              min(floats), max(floats))
     own = [us(file.cell("generic", f"narrow, {method}")) * 1e3 / 217391 for method in METHODS]
     doc.says("On `generic` the default takes {} ns per pair and `guigue-f64` {}", *own[:2])
+    longer = {}
+    for scene in classes:
+        exact, rounded = (file.cell(scene, f"narrow, {method}") for method in METHODS[:2])
+        if exact.counters["narrow_exact_count"] > exact.counters["pairs_count"] / 2:
+            longer[scene] = us(exact) / us(rounded)
+    named = [longer.pop(scene) for scene in ("hairs_breadth", "collinear")]
+    doc.says("Where most pairs need exact sums it takes {} to {} times as long, in `hairs_breadth` {} times and in `collinear` {} times",
+             min(longer.values()), max(longer.values()), *named)
 
 
 def impacts(doc: Document) -> None:
