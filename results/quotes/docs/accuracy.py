@@ -126,9 +126,7 @@ def boxes(doc: Document) -> None:
                      counters["node_bytes"],
                      counters["tree_bytes"], None, counters["false_count"], counters["pairs_count"] / counters["right_pairs_count"])
     doc.under("- **16-bit integers are enough.**")
-    wider = File("pocl-2-cores-avx512/accuracy-boxes")
-    for some, words in ((wider, "a frame of the torus by `group` takes {}\n  ms instead of {}"), (file, "it takes {} instead of {}")):
-        doc.says(words, *(us(some.cell("torus:100000", f"boxes, {name}")) * 1e-3 for name in ("u16", "f32")))
+    doc.says("it takes {} ms instead of {}", *(us(file.cell("torus:100000", f"boxes, {name}")) * 1e-3 for name in ("u16", "f32")))
     doc.says("and the narrow phase\n  takes {} ms instead of {}.",
              *(us(file.cell("torus:100000", f"boxes, {name}"), "narrow") * 1e-3 for name in ("u8", "f32")))
     cells = {name: large.cell("torus:2880000", f"boxes, {name}") for name in ("f32", "u16", "u8")}

@@ -33,5 +33,7 @@ def quotes(doc: Document) -> None:
         pairs = [[cell for cell in near.cells if dict(cell.collider_options).get("no_skip", "") == off] for off in ("", "near")]
         shares = [us(one) / us(other) for one, other in zip(*pairs)]
         doc.says(text, min(shares), max(shares))
+    used = [savings.times(one) for one in found["h200"] if not one.is_forced and one.skips_something]
+    doc.says("noise, which is up to {} % there: the most", 100 * (1 - min(used)))
     forced = [1 / savings.times(one) for one in found["h200"] if one.rule == "near" and one.is_forced and one.skips_something]
     doc.says("`near` would cost {} to {} times the frame", min(forced), max(forced))

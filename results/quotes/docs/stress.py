@@ -9,5 +9,5 @@ def right_of(name: str) -> tuple[int, int]:
 
 
 def quotes(doc: Document) -> None:
-    for name, text in (("pocl-2-cores/stress", "| {} cells of {} | 2 of"), ("h200/stress", "| {} cells of {} | 3 refused")):
+    for name, text in (("pocl-2-cores/stress", "| {} cells of {} | none |"), ("h200/stress", "| {} cells of {} | 3 refused")):
         doc.says(text, *reversed(right_of(name)))
