@@ -68,15 +68,20 @@ TEST_P(EachBuilder, ChangesItsTreeByTheOrderAndNoOtherOption)
 {
     const Mesh mesh = hard_inputs().front().make(777);
     BuilderChoice choice = named(GetParam().name);
-    for (const OrderEntry& order : order_catalog())
+    int place = 0;
+    for (const OrderEntry& order : order_catalog()) {
+        ++place;
         for (const bool sorted_leaves : {false, true})
             for (const unsigned group_size : {0u, 64u}) {
+                if (!takes_combination({place, sorted_leaves, group_size == 0}))
+                    continue;
                 choice.order = order.name;
                 choice.sorted_leaves = sorted_leaves;
                 choice.group_size = group_size;
                 EXPECT_EQ(broken_over(choice, mesh), "")
                     << order.name << (sorted_leaves ? ", sorted, " : ", mesh, ") << group_size;
             }
+    }
 }
 
 TEST_P(EachBuilder, KeepsNothingOfTheSizeReservedBefore)

@@ -148,8 +148,9 @@ TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
             SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
             const auto collider =
                 made(name, {.group_size = group_size, .form = KernelForm::groups});
-            expect_oracles_pairs(*collider, standing);
-            expect_oracles_pairs(*collider, wide);
+            expect_oracles_pairs(*collider, group_size == 8 ? wide : standing);
+            if (takes_all_cases())
+                expect_oracles_pairs(*collider, group_size == 8 ? standing : wide);
         }
     // Groups of 4 could never take a node with 8 children; groups of 1 would have one work-item for two counters.
     for (const unsigned group_size : {1u, 2u, 4u, 48u, 512u})
