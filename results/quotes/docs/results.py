@@ -46,6 +46,8 @@ def builds(doc: Document) -> None:
 
     doc.says("the construction is {} to {} times as fast as the radix tree as printed (`apetrei`), and {} to {} times as fast",
              *over(table1, "apetrei"), *over(table1, "apetrei-fused"))
+    scan, stand_in = (us(table1.cell(scene, "oibvh-single")) for scene in ("happy_buddha_1087716", "buddha"))
+    doc.says("Happy Buddha takes {} of the time of the torus", scan / stand_in)
     doc.says("the padded tree takes {} to {} times as long",
              *ends([padded / own for padded, own in zip(times(table1, "perfect"), times(table1, "oibvh-multi"))]))
     build = peers.cell("torus:2880000", "oibvh-single")
