@@ -24,7 +24,7 @@ SEE = "Options that all commands have, exit codes and environment: bvhbench --he
 # Options of the whole program. They may come before or after the command, and are passed on to measuring processes.
 COMMON = ("--device", "--kernels", "--data", "--doubles", "--tuning", "--memory-limit", "--time-limit")
 COMMON_LISTS = ("--plugin", "--program")  # may be given several times
-COMMON_FLAGS = ("--force", "--verbose", "--wide")
+COMMON_FLAGS = ("--force", "--verbose", "--weld", "--wide")
 
 
 class Parser(argparse.ArgumentParser):

@@ -9,6 +9,7 @@
 #include "geometry/host_memory.h"
 #include "geometry/names.h"
 #include "scenes/counts.h"
+#include "scenes/facts.h"
 #include "scenes/formats/ply_parts.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/derived.h"
@@ -74,6 +75,8 @@ constexpr Derivation derivations[] = {
      "any scene with triangle K moved away by D diagonals of its box", 2},
     {"bend", "bend:SCENE", "any scene of one frame with a second one, in which it is bent", 0},
 };
+/// Triangles of a file by which its pairs are estimated, in a small part of the time that it takes to read it.
+constexpr std::size_t sampled_triangles = 64;
 constexpr uint most_refined = 0xffffffffu / 3;  // three half-edges per triangle
 
 /// A name like "refine:SCENE:N", split into its parts.
@@ -216,7 +219,8 @@ Scene load_any(std::string_view text, const SceneLibrary& library)
 {
     Scene scene = unfinished(text, library);
     scene.name = scene_name(text);
-    return finished(std::move(scene));
+    scene = finished(std::move(scene));
+    return library.weld ? welded(std::move(scene)) : scene;
 }
 
 }  // namespace
@@ -329,8 +333,13 @@ Scene load_scene(std::string_view text, const SceneLibrary& library)
 {
     try {
         Scene scene = load_any(text, library);
-        if (scene.rounding.how && library.tell)
-            library.tell("scene " + in_quotes(text) + ": " + rounding_text(scene.rounding));
+        if (scene.source != "generated" && !taken_apart(text))
+            scene.facts = mesh_facts(scene, sampled_triangles);
+        const std::string rounded = scene.rounding.how ? rounding_text(scene.rounding) : "";
+        const std::string surprising = surprises(scene);
+        const char* const between = rounded.empty() || surprising.empty() ? "" : "; ";
+        if (library.tell && !(rounded + surprising).empty())
+            library.tell("scene '" + std::string(text) + "': " + rounded + between + surprising);
         return scene;
     } catch (const std::bad_alloc&) {
         throw Unavailable("there is not enough memory for scene " + in_quotes(text));

@@ -19,7 +19,9 @@ struct SceneLibrary {
     std::size_t memory_limit_bytes = std::size_t{8} << 30;
     double time_limit_s = 120;             ///< time limit of that process
     Doubles doubles = Doubles::recentred;  ///< how coordinates that floats cannot hold are rounded
-    /// Called with one line of text that describes such a rounding; may be empty.
+    bool weld = false;                     ///< whether vertices of equal position are joined
+    bool any_topology = false;  ///< whether frames may differ in their triangles (Scene::later)
+    /// Called with one line of text that describes such a rounding, or what surprises about a file; may be empty.
     std::function<void(const std::string& line)> tell = {};
 };
 

@@ -46,11 +46,25 @@ private:
 };
 
 constexpr std::pair<const char*, ObjectsBy> names[] = {
-    {"auto", ObjectsBy::automatic},
-    {"one", ObjectsBy::one},
-    {"mesh", ObjectsBy::mesh},
-    {"components", ObjectsBy::components},
+    {"auto", ObjectsBy::automatic},        {"one", ObjectsBy::one},       {"mesh", ObjectsBy::mesh},
+    {"components", ObjectsBy::components}, {"groups", ObjectsBy::groups},
 };
+
+/// Makes the file's groups objects.
+void group_by_file(Scene& scene)
+{
+    if (scene.groups.empty())
+        throw BadUsage("scene '" + scene.name +
+                       "' has no groups to take for objects: an OBJ file names them in lines that "
+                       "begin with g");
+    scene.objects.clear();
+    scene.object_ids.clear();
+    for (const std::string& group : scene.groups)
+        scene.objects.push_back({group, 0, 0});
+    scene.objects_are_parts = false;
+    group_faces(scene, scene.file_faces.empty() ? scene.group_of_face
+                                                : taken(scene.group_of_face, scene.file_faces));
+}
 
 }  // namespace
 
@@ -90,6 +104,7 @@ void group_by_parts(Scene& scene)
     part_of_face.reserve(scene.faces.size());
     scene.objects.clear();
     scene.object_ids.clear();
+    scene.objects_are_parts = true;
     for (const Face& face : scene.faces) {
         uint& part = number[sets.find(face.a)];
         if (part == none) {
@@ -139,7 +154,7 @@ ObjectsBy objects_by_called(std::string_view name)
     for (const auto& [known, by] : names)
         if (name == known)
             return by;
-    throw BadUsage("objects are chosen by auto, one, mesh or components, not by '" +
+    throw BadUsage("objects are chosen by auto, one, mesh, components or groups, not by '" +
                    std::string(name) + "'");
 }
 
@@ -153,6 +168,8 @@ std::string_view objects_by_name(ObjectsBy by)
 
 Scene with_objects(Scene scene, ObjectsBy by)
 {
+    for (Scene& later : scene.later)
+        later = with_objects(std::move(later), by);
     switch (by) {
         case ObjectsBy::automatic:
             return scene;
@@ -169,6 +186,9 @@ Scene with_objects(Scene scene, ObjectsBy by)
             break;
         case ObjectsBy::components:
             group_by_parts(scene);
+            break;
+        case ObjectsBy::groups:
+            group_by_file(scene);
             break;
     }
     scene.has_meshes = false;

@@ -35,9 +35,10 @@ enum class ObjectsBy {
     one,        ///< all triangles are one object
     mesh,       ///< as `automatic`, only for scenes whose source names objects
     components,  ///< connected components: triangles that share a vertex index, transitively
+    groups,      ///< groups that the file names beside its objects: OBJ's "g"
 };
 
-/// Returns the criterion called "auto", "one", "mesh" or "components". Throws BadUsage, listing these, for any other name.
+/// Returns the criterion called "auto", "one", "mesh", "components" or "groups". Throws BadUsage, listing these, for any other name.
 ObjectsBy objects_by_called(std::string_view name);
 
 std::string_view objects_by_name(ObjectsBy by);
@@ -45,7 +46,8 @@ std::string_view objects_by_name(ObjectsBy by);
 /// Returns `scene` divided into objects by `by`, finished again (the content hash covers objects).
 ///
 /// Components are in the order of their first triangles, and their triangles are grouped; the triangles of one object are in
-/// the order of the file. Vertices and their indices are unchanged. Throws BadUsage for `mesh` if the source names no objects.
+/// the order of the file. Vertices and their indices are unchanged. Throws BadUsage for `mesh` if the source names no objects, and for
+/// `groups` if it names no groups.
 Scene with_objects(Scene scene, ObjectsBy by);
 
 }  // namespace bvhbench

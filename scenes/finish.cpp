@@ -62,6 +62,8 @@ std::uint64_t content_hash(const Scene& scene)
         hash.value(std::uint64_t{points.size()});
         hash.values(std::span(points));
     }
+    for (const Scene& later : scene.later)
+        hash.value(later.content_hash);
     return hash.get();
 }
 
@@ -81,13 +83,18 @@ Scene finished(Scene scene)
                               std::to_string(scene.frames.front().size()) + " vertices");
         canonicalise(scene, points);
     }
-    if (!scene.frame_labels.empty() && scene.frame_labels.size() != scene.frames.size())
+    if (!scene.frame_labels.empty() && scene.frame_labels.size() != scene.frame_count())
         refuse(scene, "has " + std::to_string(scene.frame_labels.size()) + " labels for " +
-                          std::to_string(scene.frames.size()) + " frames");
+                          std::to_string(scene.frame_count()) + " frames");
     check_faces(scene, scene.frames.front().size());
     if (scene.objects.empty())
         scene.objects.push_back({"all", 0, static_cast<uint>(scene.faces.size())});
     check_objects(scene);
+    for (Scene& later : scene.later) {
+        later.name = scene.name;
+        later.source = scene.source;
+        later = finished(std::move(later));
+    }
     scene.content_hash = content_hash(scene);
     return scene;
 }

@@ -19,10 +19,7 @@ constexpr std::uint64_t bytes_a_file_byte = 4;
 
 std::string lower_extension(const std::filesystem::path& path)
 {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return extension;
+    return lower_case(path.extension().string());
 }
 
 /// Returns the reader for this extension; nullptr for formats that assimp has to read.
@@ -34,6 +31,8 @@ Reader plain_reader(const std::string& extension)
            : extension == ".stl" ? read_stl
                                  : nullptr;
 }
+
+bool is_gltf(const std::string& extension) { return extension == ".gltf" || extension == ".glb"; }
 
 void check_is_file(const std::filesystem::path& path)
 {
@@ -68,7 +67,7 @@ std::string file_bytes(const std::filesystem::path& path, std::uint64_t times)
 bool is_mesh_file(const std::filesystem::path& path)
 {
     const std::string extension = lower_extension(path);
-    return plain_reader(extension) != nullptr || assimp_knows(extension);
+    return plain_reader(extension) != nullptr || is_gltf(extension) || assimp_knows(extension);
 }
 
 FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library)
@@ -78,6 +77,11 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& l
     FileMesh file;
     if (const Reader read = plain_reader(extension)) {
         file = read(file_bytes(path, bytes_a_file_byte), path.string());
+    } else if (is_gltf(extension)) {
+        file = read_gltf(file_bytes(path, bytes_a_file_byte), path.string(),
+                         [&](const std::string& beside) {
+                             return file_bytes(path.parent_path() / beside, bytes_a_file_byte);
+                         });
     } else if (assimp_knows(extension)) {
         require_host_memory("reading " + in_quotes(path.string()),
                             bytes_a_file_byte * std::filesystem::file_size(path));
@@ -87,6 +91,7 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& l
     }
     if (file.mesh.faces.empty())
         throw Unavailable(path.string() + " has no triangles");
+    cut_polygons(file, path.string());
     return file;
 }
 
@@ -96,6 +101,9 @@ void take_mesh(Scene& scene, FileMesh&& file)
     scene.objects = std::move(file.objects);
     scene.object_ids = std::move(file.object_ids);
     scene.has_meshes = !scene.objects.empty();
+    scene.groups = std::move(file.groups);
+    scene.group_of_face = std::move(file.group_of_face);
+    scene.reading = std::move(file.reading);
     if (!file.object_of_face.empty())
         group_faces(scene, file.object_of_face);
 }

@@ -4,10 +4,13 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <new>
+#include <sstream>
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -20,7 +23,7 @@ constexpr const char* argument = "--read-mesh";
 // Guards against a program whose main does not call is_mesh_worker: it would start itself over and over.
 constexpr const char* marker = "BVHBENCH_MESH_WORKER";
 
-constexpr std::string_view magic = "BVHMESH1";
+constexpr std::string_view magic = "BVHMESH2";
 
 template <class List>
 void put(std::string& message, const List& list)
@@ -66,34 +69,96 @@ public:
             add(*node.mChildren[k], transform);
     }
 
+    /// Lists what is not read.
+    void list_rest()
+    {
+        const auto ignore = [&](std::size_t count, const char* what) {
+            if (count > 0)
+                file.reading.ignored.push_back(std::to_string(count) + ' ' + what);
+        };
+        ignore(scene_.mNumMaterials, "materials");
+        ignore(scene_.mNumAnimations, "animations");
+        ignore(skipped_, "points and lines");
+        ignore(skins_, "skins");
+        ignore(morphs_, "morph targets");
+        std::vector<std::string>& surprises = file.reading.surprises;
+        if (skins_ + morphs_ > 0)
+            surprises.push_back("skins and morph targets are not applied");
+        if (const std::uint64_t joined = file.reading.joined_vertices; joined > 0)
+            surprises.push_back("its corners come without common vertices, and " +
+                                std::to_string(joined) + " of equal position were joined");
+    }
+
 private:
     void add_mesh(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name)
     {
-        const std::size_t first_point = file.mesh.points.size();
         const std::size_t first_face = file.mesh.faces.size();
-        if (first_point + mesh.mNumVertices > 0xffffffffu)
-            throw Unavailable("there are more than 2^32 vertices");
-        for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
-            const aiVector3D at = transform * mesh.mVertices[k];
-            file.mesh.points.push_back({at.x, at.y, at.z});
-        }
+        places_.assign(mesh.mNumVertices, unmade);
+        joined_.clear();
+        const bool is_split = gives_each_corner_a_vertex(mesh);
         std::vector<uint> corners;
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
             const aiFace& face = mesh.mFaces[k];
             corners.clear();
+            if (face.mNumIndices < 3) {
+                ++skipped_;
+                continue;
+            }
             for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
                 if (face.mIndices[corner] >= mesh.mNumVertices)
                     throw Unavailable("a face names vertex " +
                                       std::to_string(face.mIndices[corner]) + " of " +
                                       std::to_string(mesh.mNumVertices));
-                corners.push_back(static_cast<uint>(first_point) + face.mIndices[corner]);
+                corners.push_back(point(mesh, transform, face.mIndices[corner], is_split));
             }
-            file.add_polygon(corners);  // adds nothing for points and lines
+            file.add_polygon(corners);
         }
         file.add_object(name, first_face);
+        skins_ += mesh.mNumBones > 0 ? 1 : 0;
+        morphs_ += mesh.mNumAnimMeshes;
     }
 
+    /// True if no two corners of a mesh have a vertex in common. The readers of many formats make meshes so, because corners may
+    /// differ in normals and colours.
+    static bool gives_each_corner_a_vertex(const aiMesh& mesh)
+    {
+        std::size_t corners = 0;
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k)
+            corners += mesh.mFaces[k].mNumIndices;
+        return mesh.mNumFaces > 1 && corners == mesh.mNumVertices;
+    }
+
+    /// Returns the point of a vertex. Vertices of equal position in a split mesh have one point.
+    uint point(const aiMesh& mesh, const aiMatrix4x4& transform, unsigned vertex, bool is_split)
+    {
+        uint& place = places_[vertex];
+        if (place != unmade)
+            return place;
+        const aiVector3D& from = mesh.mVertices[vertex];
+        if (is_split) {
+            const auto [known, is_new] =
+                joined_.try_emplace({from.x + 0.0f, from.y + 0.0f, from.z + 0.0f},
+                                    static_cast<uint>(file.mesh.points.size()));
+            place = known->second;
+            if (!is_new) {
+                ++file.reading.joined_vertices;
+                return place;
+            }
+        }
+        if (file.mesh.points.size() >= unmade)
+            throw Unavailable("there are more than 2^32 vertices");
+        place = static_cast<uint>(file.mesh.points.size());
+        const aiVector3D at = transform * from;
+        file.mesh.points.push_back({at.x, at.y, at.z});
+        return place;
+    }
+
+    static constexpr uint unmade = 0xffffffffu;
+
     const aiScene& scene_;
+    std::vector<uint> places_;                     ///< the point of each vertex of the current mesh
+    std::map<std::array<float, 3>, uint> joined_;  ///< the point at each position, in a split mesh
+    std::size_t skipped_ = 0, skins_ = 0, morphs_ = 0;
 };
 
 /// Reads in this process, which assimp may crash.
@@ -112,6 +177,8 @@ FileMesh read_with_assimp(const std::string& path)
         throw Unavailable("assimp could not read all of it");
     Flattened flattened(*scene);
     flattened.add(*scene->mRootNode, aiMatrix4x4());
+    flattened.list_rest();
+    cut_polygons(flattened.file, path);
     return std::move(flattened.file);
 }
 
@@ -143,6 +210,15 @@ std::string mesh_message(const FileMesh& file)
     put(message, ranges);
     for (const SceneObject& object : file.objects)
         put(message, object.name);
+    const Reading& reading = file.reading;
+    put(message, std::array{reading.polygons_cut, reading.polygons_concave,
+                            reading.polygons_crossing, reading.joined_vertices});
+    for (const auto* const texts : {&reading.surprises, &reading.ignored}) {
+        std::string lines;
+        for (const std::string& text : *texts)
+            lines += text + '\n';
+        put(message, lines);
+    }
     return message;
 }
 
@@ -169,6 +245,19 @@ std::optional<std::variant<FileMesh, std::string>> decoded(std::string_view mess
         if (!take(message, name))
             return std::nullopt;
         file.objects.push_back({name, ranges[k], ranges[k + 1]});
+    }
+    Reading& reading = file.reading;
+    std::vector<std::uint64_t> counts;
+    if (!take(message, counts) || counts.size() != 4)
+        return std::nullopt;
+    reading = {counts[0], counts[1], counts[2], counts[3], {}, {}};
+    for (auto* const texts : {&reading.surprises, &reading.ignored}) {
+        std::string lines;
+        if (!take(message, lines))
+            return std::nullopt;
+        std::istringstream text(lines);
+        for (std::string line; std::getline(text, line);)
+            texts->push_back(line);
     }
     if (!message.empty())
         return std::nullopt;

@@ -27,15 +27,16 @@ int mesh_worker_main(int argc, char** argv);
 /// True if assimp has a reader for files with this extension (".gltf").
 bool assimp_knows(const std::string& extension);
 
-/// Reads `path` with assimp. Each instance of a mesh becomes an object, transformed by the nodes above it. Vertices are not
-/// merged, points and lines are skipped, and polygons are cut into fans. Throws Unavailable if assimp refuses the file,
+/// Reads `path` with assimp. Each instance of a mesh becomes an object, transformed by the nodes above it. In a mesh whose corners
+/// have no vertex in common, those of equal position become one; vertices that no face names are left out; points and lines are
+/// skipped. Throws Unavailable if assimp refuses the file,
 /// crashes, or exceeds a limit of `library`.
 FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& library);
 
 /// Encodes the worker's answer, in the byte order of the machine:
 ///
-///     "BVHMESH1"  'E'  text to the end                                              a refusal
-///     "BVHMESH1"  'M'  points, faces, first face and count of each object, names    a mesh
+///     "BVHMESH2"  'E'  text to the end                                                       a refusal
+///     "BVHMESH2"  'M'  points, faces, first face and count of each object, names, Reading    a mesh
 ///
 /// Each list is its length in 64 bits, followed by its elements.
 std::string mesh_message(const FileMesh& file);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/mesh.h"
 #include "scenes/doubles.h"
+#include "scenes/reading.h"
 
 namespace bvhbench {
 
@@ -41,6 +43,12 @@ struct Scene {
     std::vector<uint> file_faces;
     /// Number of object k in the file; empty: k.
     std::vector<std::int64_t> object_ids;
+    /// A second division into objects that the file has (OBJ's groups): names, and the index of the group of each of the file's
+    /// triangles. Empty: it has none.
+    std::vector<std::string> groups;
+    std::vector<uint> group_of_face;
+    Reading reading;                 ///< what reading the file did
+    std::optional<MeshFacts> facts;  ///< of a scene that was read from a file (scenes/facts.h)
     std::string
         source;  ///< "generated", or the path of the file that was read, relative to the data folder if it is inside
     std::filesystem::path
@@ -50,6 +58,17 @@ struct Scene {
     Rounding rounding;               ///< rounding of coordinates that floats could not hold
     std::string bend_of;             ///< scene to which this one adds a bent frame, or empty
     std::uint64_t content_hash = 0;  ///< covers faces, objects and all frames, but no names
+    bool objects_are_parts = false;  ///< whether objects are connected components
+    /// Frames with other triangles than the first, from the second on, each a scene of one frame. Empty: all frames are in
+    /// `frames`.
+    std::vector<Scene> later;
+
+    std::size_t frame_count() const { return frames.size() + later.size(); }
+    /// Returns the scene that has frame `k`, as its first frame if that is one of `later`.
+    const Scene& with_frame(std::size_t k) const
+    {
+        return later.empty() || k == 0 ? *this : later[k - 1];
+    }
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };

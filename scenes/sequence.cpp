@@ -48,9 +48,10 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
 /// The mesh files of a folder, by their numbers.
 using NumberedFiles = std::map<std::int64_t, std::filesystem::path>;
 
-NumberedFiles numbered_files(const std::filesystem::path& folder)
+/// Returns the numbered files of the format that most of them have. If there are others, `passed_over` says so.
+NumberedFiles numbered_files(const std::filesystem::path& folder, std::string& passed_over)
 {
-    NumberedFiles files;
+    std::map<std::string, NumberedFiles> formats;  // by extension
     std::error_code error;
     const std::filesystem::directory_iterator entries(folder, error);
     if (error)
@@ -62,11 +63,30 @@ NumberedFiles numbered_files(const std::filesystem::path& folder)
         const auto number = frame_number(entry.path());
         if (!number)
             continue;
+        NumberedFiles& files = formats[lower_case(entry.path().extension().string())];
         if (!files.emplace(*number, entry.path()).second)
             throw Unavailable(folder.string() + " has two files for frame " +
                               std::to_string(*number));
     }
-    return files;
+    if (formats.empty())
+        return {};
+    const auto fewer = [](const auto& a, const auto& b) {
+        return a.second.size() < b.second.size();
+    };
+    const auto most = std::ranges::max_element(formats, fewer);
+    for (const auto& [extension, files] : formats) {
+        if (extension == most->first)
+            continue;
+        if (files.size() == most->second.size())
+            throw Unavailable(folder.string() + " has as many frames in " + most->first +
+                              " as in " + extension + ": keep one format");
+        passed_over +=
+            (passed_over.empty() ? "" : ", ") + std::to_string(files.size()) + " in " + extension;
+    }
+    if (!passed_over.empty())
+        passed_over = "its frames are the " + std::to_string(most->second.size()) + " files in " +
+                      most->first + ", and " + passed_over + " are passed over";
+    return most->second;
 }
 
 bool same(const std::vector<Face>& a, const std::vector<Face>& b)
@@ -74,7 +94,7 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Face)) == 0;
 }
 
-/// Reads the files again, for their vertices in doubles. Few sequences need this, so the others use no memory for it.
+/// Returns the vertices of each frame in doubles, read again. Few sequences need this, so the others use no memory for it.
 std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
                                                 const SceneLibrary& library)
 {
@@ -89,31 +109,57 @@ std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
     return frames;
 }
 
+/// Makes every frame but the first a scene of its own, with its triangles in `meshes`.
+void part_frames(Scene& scene, std::vector<FileMesh>& meshes)
+{
+    for (std::size_t k = 1; k < meshes.size(); ++k) {
+        Scene& later = scene.later.emplace_back();
+        later.frames.push_back(std::move(scene.frames[k]));
+        later.rounding = scene.rounding;
+        take_mesh(later, std::move(meshes[k]));
+        if (later.objects.empty())
+            group_by_parts(later);
+    }
+    scene.frames.resize(1);
+}
+
 Scene read_numbered(const std::filesystem::path& folder, const SceneLibrary& library)
 {
-    const NumberedFiles files = numbered_files(folder);
+    std::string passed_over;
+    const NumberedFiles files = numbered_files(folder, passed_over);
     if (files.empty())
         throw Unavailable(folder.string() +
                           " has neither mesh.ply and frames.f32 nor numbered mesh files");
     Scene scene;
-    FileMesh first;
-    bool floats_hold = true;
+    std::vector<FileMesh> meshes;  // the first; with `any_topology`, all
+    bool floats_hold = true, share_triangles = true;
     for (const auto& [number, path] : files) {
         FileMesh file = read_mesh_file(path, library);
         floats_hold = floats_hold && file.floats_hold;
-        if (!scene.frames.empty() && !same(first.mesh.faces, file.mesh.faces))
+        const bool differs =
+            !meshes.empty() && (!same(meshes[0].mesh.faces, file.mesh.faces) ||
+                                file.mesh.points.size() != scene.frames.front().size());
+        if (differs && !library.any_topology)
             throw Unavailable(path.string() + " has other triangles than " +
-                              files.begin()->second.string() + ", and frames share theirs");
+                              files.begin()->second.string() +
+                              ", which only frames of `collide` may have, whose trees are rebuilt: "
+                              "without refits, fronts, --swept and --between");
+        share_triangles = share_triangles && !differs;
         scene.frames.push_back(std::move(file.mesh.points));
-        if (scene.frames.size() == 1)
-            first = std::move(file);
+        file.wide.clear();
+        if (meshes.empty() || library.any_topology)
+            meshes.push_back(std::move(file));
         scene.frame_labels.push_back(std::to_string(number));
     }
     if (!floats_hold)
         scene.rounding = round_frames(wide_frames(files, library), library.doubles, scene.frames);
-    take_mesh(scene, std::move(first));
+    if (!share_triangles)
+        part_frames(scene, meshes);
+    take_mesh(scene, std::move(meshes[0]));
     if (scene.objects.empty())
         group_by_parts(scene);
+    if (!passed_over.empty())
+        scene.reading.surprises.push_back(passed_over);
     return scene;
 }
 

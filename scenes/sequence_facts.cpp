@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "geometry/error.h"
 
@@ -32,41 +33,69 @@ void expect(const Json& json, const char* key, std::size_t found)
                     std::to_string(found)};
 }
 
-std::vector<SceneObject> object_table(const Json& table)
+/// A line of the table of objects. Without `first`, the triangles need not follow each other: the mesh's object_id decides.
+struct ObjectLine {
+    std::string name;
+    std::optional<std::int64_t> id;
+    std::optional<uint> first;
+    uint count;
+};
+
+std::vector<ObjectLine> object_table(const Json& table)
 {
     if (!table.is_array())
         throw Fault{"has 'objects' that are no list"};
-    std::vector<SceneObject> objects;
+    std::vector<ObjectLine> objects;
     for (const Json& line : table) {
         const auto name = line.is_object() ? line.find("name") : line.end();
         if (!line.is_object() || name == line.end() || !name->is_string())
             throw Fault{"has an object without a name, number " + std::to_string(objects.size())};
-        const std::uint64_t first = count(line, "face_first"), faces = count(line, "face_count");
-        if (first > 0xffffffffu || faces > 0xffffffffu)
-            throw Fault{"has an object of more triangles than there can be"};
-        objects.push_back(
-            {name->get<std::string>(), static_cast<uint>(first), static_cast<uint>(faces)});
+        const auto triangles = [&](const char* key) {
+            const std::uint64_t value = count(line, key);
+            if (value > 0xffffffffu)
+                throw Fault{"has an object of more triangles than there can be"};
+            return static_cast<uint>(value);
+        };
+        const auto first = line.find("face_first");
+        const bool has_first = first != line.end() && !first->is_null();
+        const auto id = line.find("id");
+        objects.push_back({name->get<std::string>(),
+                           id != line.end() && id->is_number_integer()
+                               ? std::optional(id->get<std::int64_t>())
+                               : std::nullopt,
+                           has_first ? std::optional(triangles("face_first")) : std::nullopt,
+                           triangles("face_count")});
     }
     return objects;
 }
 
-void take_objects(Scene& scene, std::vector<SceneObject> table)
+/// Divides a scene of one object by the table, which has to cover its triangles.
+void divide(Scene& scene, const std::vector<ObjectLine>& table)
 {
-    if (scene.objects.empty())
-        scene.objects.push_back({"all", 0, scene.triangle_count()});
-    if (scene.objects.size() == 1) {  // one object, or unnamed ones: the table may divide it
-        std::uint64_t covered = 0;
-        bool is_division = !table.empty();
-        for (const SceneObject& object : table) {
-            is_division = is_division && object.first_face == covered && object.face_count > 0;
-            covered += object.face_count;
-        }
-        if (!is_division || covered != scene.faces.size())
-            throw Fault{"has objects that do not cover the mesh's triangles one after the other"};
-        scene.objects = std::move(table);
-        scene.object_ids.clear();
+    std::uint64_t covered = 0;
+    scene.objects.clear();
+    scene.object_ids.clear();
+    for (const ObjectLine& line : table) {
+        if (!line.first)
+            throw Fault{"has an object, '" + line.name +
+                        "', without a face_first, and the mesh has no object_id"};
+        if (*line.first != covered || line.count == 0)
+            break;
+        scene.objects.push_back({line.name, *line.first, line.count});
+        covered += line.count;
+    }
+    if (scene.objects.size() != table.size() || covered != scene.faces.size())
+        throw Fault{"has objects that do not cover the mesh's triangles one after the other"};
+}
+
+void take_objects(Scene& scene, const std::vector<ObjectLine>& table)
+{
+    if (scene.objects.size() < 2 && table.size() != 1) {  // the mesh has no object_id
+        divide(scene, table);
         return;
     }
+    if (scene.objects.empty())
+        scene.objects.push_back({"all", 0, scene.triangle_count()});
     if (table.size() != scene.objects.size())
         throw Fault{"has " + std::to_string(table.size()) + " objects, and the mesh has " +
                     std::to_string(scene.objects.size())};
@@ -74,12 +103,18 @@ void take_objects(Scene& scene, std::vector<SceneObject> table)
         SceneObject& object = scene.objects[k];
         const uint first =
             scene.file_faces.empty() ? object.first_face : scene.file_faces[object.first_face];
-        if (table[k].first_face != first || table[k].face_count != object.face_count)
-            throw Fault{"has an object, '" + table[k].name + "', over " +
-                        std::to_string(table[k].face_count) + " triangles from " +
-                        std::to_string(table[k].first_face) + ", and the mesh has " +
-                        std::to_string(object.face_count) + " from " + std::to_string(first)};
-        object.name = table[k].name;
+        const std::int64_t id =
+            scene.object_ids.empty() ? static_cast<std::int64_t>(k) : scene.object_ids[k];
+        const auto& [name, said_id, said_first, said_count] = table[k];
+        if (said_first.value_or(first) != first || said_count != object.face_count)
+            throw Fault{"has an object, '" + name + "', over " + std::to_string(said_count) +
+                        " triangles from " + std::to_string(said_first.value_or(first)) +
+                        ", and the mesh has " + std::to_string(object.face_count) + " from " +
+                        std::to_string(first)};
+        if (scene.objects.size() > 1 && said_id.value_or(id) != id)
+            throw Fault{"has an object, '" + name + "', of id " + std::to_string(*said_id) +
+                        ", and the mesh has id " + std::to_string(id) + " in its place"};
+        object.name = name;
     }
 }
 

@@ -92,7 +92,7 @@ struct ColliderEntry {
     bool needs_tree = true;       ///< whether it queries a builder's tree
     bool finds_contacts = false;  ///< finds intersecting triangles directly, without box pairs
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
-    bool refits = false;     ///< of a method from outside: refits its tree in each frame
+    bool refits = false;  ///< keeps trees or a front from frame to frame, over the same triangles
     bool is_broken = false;  ///< as that of a builder
 
     /// True if it can be made.

@@ -163,8 +163,8 @@ constexpr Choice table[] = {
      "frames put between each two of the scene's, in a straight line",
      set_number<scene, &SceneChoice::between, most_between>,
      value_of<scene, &SceneChoice::between>},
-    {"objects", Of::scene, "auto, one, mesh or components",
-     "what gets a tree of its own: auto, one, mesh or components",
+    {"objects", Of::scene, "auto, one, mesh, components or groups",
+     "what gets a tree of its own: auto, one, mesh, components, or groups, OBJ's g",
      [](CellChoice& choice, const std::string& word) {
          choice.scene.objects = objects_by_called(word);
          return true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/collide.h"
 
+#include <algorithm>
+#include <iostream>
 #include <optional>
 
 #include "collide/narrow/narrow_methods.h"
@@ -10,6 +12,7 @@
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
+#include "harness/judge/containment.h"
 #include "harness/measure/run.h"
 #include "harness/record/pairs_file.h"
 #include "harness/session/watchdog.h"
@@ -39,6 +42,8 @@ public:
         app.add_option("--pairs", pairs_,
                        "write the pairs of every frame: .csv, or of one frame .bin of 32-bit ids");
         app.add_option("--contacts", contacts_, "the same of the pairs that intersect");
+        app.add_flag("--containment", containment_,
+                     "say which objects lie wholly inside a closed object, without a contact");
     }
 
     int run(const Invocation& invocation) override
@@ -57,6 +62,8 @@ public:
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.programs().compile_ns());
         print_tables(results.text(), common);
+        for (const std::string& line : contained_)
+            std::cout << line << '\n';
         const int code = results.exit_code();
         pairs_file.finish();
         contacts_file.finish();
@@ -85,6 +92,46 @@ private:
         }
     }
 
+    /// Throws BadUsage if what is found cannot tell which objects are inside others.
+    void check_containment() const
+    {
+        if (containment_ && (choice_.scene.swept || choice_.collider.narrow != "exact" ||
+                             choice_.collider.among == Among::within_objects))
+            throw BadUsage(
+                "--containment needs all exact contacts between objects: --narrow exact, without "
+                "--swept and --pairs-of within");
+    }
+
+    /// Records which objects of a frame are inside others in its cells.
+    void add_containment(std::vector<Cell>& cells, const Found& found)
+    {
+        if (std::ranges::none_of(
+                cells, [](const Cell& cell) { return cell.check.contacts_hash.has_value(); }))
+            return;  // no pipeline found the contacts
+        const auto frame = static_cast<std::size_t>(cells.front().scene.frame);
+        const Containment inside = containment(
+            *found.scene, found.scene->frames.size() > 1 ? frame : 0, found.contacts.pairs());
+        const std::string where = cells.front().scene.name + ", frame " + std::to_string(frame);
+        for (Cell& cell : cells)
+            if (cell.status == Cell::Status::measured)
+                cell.counters["contained_count"] = static_cast<double>(inside.found.size());
+        for (const auto& [object, of] : inside.found) {
+            const std::string& inner = found.scene->objects[object].name;
+            const std::string& outer = found.scene->objects[of].name;
+            for (Cell& cell : cells)
+                if (cell.status == Cell::Status::measured)
+                    cell.contained.emplace_back(inner, outer);
+            contained_.push_back(where + ": object '" + inner + "' lies wholly inside '" + outer +
+                                 "', without a contact");
+        }
+        if (inside.found.empty())
+            contained_.push_back(where + ": no object lies wholly inside a closed one");
+        if (inside.open_objects > 0)
+            contained_.push_back(where + ": " + std::to_string(inside.open_objects) +
+                                 " of its objects are not closed, so nothing is inside of them; "
+                                 "`bvhbench scene` counts open edges, --weld may close them");
+    }
+
     /// Throws BadUsage for words that are invalid with swept boxes.
     void check_swept_words() const
     {
@@ -105,13 +152,14 @@ private:
         CollideTask task;
         static_cast<SceneChoice&>(task) = choice_.scene;
         check_lists(task.frames);
+        check_containment();
         for (const CellChoice& choice : choices)
             task.pipelines.push_back({choice.builder, choice.collider});
         if (skips_)
             task.pipelines = with_each_rule_off(task.pipelines);
         task.needs_scene = scenes_.size() == 1;
         task.samples = samples_;
-        task.wants_lists = !pairs_.empty() || !contacts_.empty();
+        task.wants_lists = !pairs_.empty() || !contacts_.empty() || containment_;
         sampling_.apply(task.sampling);
         check_swept(task);
         if (task.swept) {
@@ -123,7 +171,7 @@ private:
     }
 
     void collide(Session& session, CollideTask& task, ResultFile& results, PairsFile& pairs,
-                 PairsFile& contacts) const
+                 PairsFile& contacts)
     {
         int order = results.next_order();
         Progress progress(scenes_.size());
@@ -137,6 +185,8 @@ private:
             collide_frames(
                 session, task, order,
                 [&](std::vector<Cell>&& cells, const Found& found) {
+                    if (containment_ && found.scene != nullptr)
+                        add_containment(cells, found);
                     for (const Cell& cell : cells)
                         results.add(cell);
                     if (found.scene == nullptr)
@@ -153,7 +203,8 @@ private:
     CellChoice choice_;
     std::vector<std::string> scenes_;
     const CLI::Option* adjacent_ = nullptr;
-    bool skips_ = false;
+    bool skips_ = false, containment_ = false;
+    std::vector<std::string> contained_;  ///< lines about objects inside others
     int samples_ = 20;
     SamplingWords sampling_;
     std::string json_, pairs_, contacts_;

@@ -5,13 +5,14 @@ namespace bvhbench {
 
 extern const CommandEntry build_command, collide_command, cluster_command, run_command,
     accuracy_command, tune_command, list_command, check_command, stress_command, facts_command,
-    settle_command, view_command;
+    scene_command, settle_command, view_command;
 
 std::span<const CommandEntry> commands()
 {
     // To add a command, add its line here. One without an object is implemented in plots/commands/NAME.py.
     static const CommandEntry all[] = {
         list_command,
+        scene_command,
         build_command,
         collide_command,
         cluster_command,

@@ -72,6 +72,9 @@ void add_common(CLI::App& app, CommonOptions& common)
            "--doubles", common.doubles,
            "recentred or as-is: how coordinates of a file that floats cannot hold are rounded")
         ->capture_default_str();
+    app.add_flag("--weld", common.weld,
+                 "join vertices of equal position, so that triangles beside each other are "
+                 "neighbours: STL has no other way to say so");
     app.add_option("--tuning", common.tuning,
                    "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, "
                    "else those in the program");

@@ -31,7 +31,7 @@ std::string text_of(std::uint64_t key, const RightFacts& facts)
 {
     const std::string line = "bvhbench answer " + hex(key) + ' ' + hex(facts.set.count) + ' ' +
                              hex(facts.set.low) + ' ' + hex(facts.set.high) + ' ' +
-                             hex(facts.file_hash) + ' ';
+                             hex(facts.file_hash) + ' ' + hex(facts.touching) + ' ';
     Hash hash;
     hash.bytes(line.data(), line.size());
     return line + hex(hash.get()) + '\n';
@@ -47,9 +47,10 @@ std::optional<RightFacts> kept_answer(std::uint64_t key)
     text.resize(static_cast<std::size_t>(file.gcount()));
     RightFacts facts;
     const bool is_answer = RE2::FullMatch(
-        text, "bvhbench answer \\w{16} (\\w{16}) (\\w{16}) (\\w{16}) (\\w{16}) \\w{16}\\n",
+        text,
+        "bvhbench answer \\w{16} (\\w{16}) (\\w{16}) (\\w{16}) (\\w{16}) (\\w{16}) \\w{16}\\n",
         RE2::Hex(&facts.set.count), RE2::Hex(&facts.set.low), RE2::Hex(&facts.set.high),
-        RE2::Hex(&facts.file_hash));
+        RE2::Hex(&facts.file_hash), RE2::Hex(&facts.touching));
     if (!is_answer || text != text_of(key, facts))
         return std::nullopt;
     return facts;

@@ -15,6 +15,7 @@ struct RightFacts {
     PairFacts set;
     std::uint64_t file_hash =
         0;  ///< PairList::hash() of the list, with triangles numbered as in the scene's file
+    std::uint64_t touching = 0;  ///< of a list of contacts: those that only touch
 
     bool operator==(const RightFacts&) const = default;
 };

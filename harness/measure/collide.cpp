@@ -24,7 +24,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
                    const PassCells& passes)
 {
     const Scene scene = scene_of(task, session.scenes());
-    const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
+    const FrameRange frames = frames_of(task, scene.frame_count(), "frames");
     const bool finds_nothing =
         scene.objects.size() == 1 &&
         std::ranges::all_of(task.pipelines, [](const PipelineChoice& pipeline) {
@@ -36,25 +36,33 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     if (passes &&
         passes((frames.end - frames.first) * task.pipelines.size() * task.sampling.caches.size()))
         return;
-    Input input = upload_frame(session, scene, frames.first);
+    Input input = upload_frame(session, scene.with_frame(frames.first),
+                               scene.later.empty() ? frames.first : 0);
     Contest contest(task.sampling.race);
     std::vector<Running> all;
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
-        input.points = scene.frames[frame];
-        input.device_points.upload(session.queue().cl(), input.points);
+        const Scene& shown = scene.with_frame(frame);
+        if (scene.later.empty()) {
+            input.points = scene.frames[frame];
+            input.device_points.upload(session.queue().cl(), input.points);
+        } else if (frame > frames.first) {  // other triangles: nothing of the frame before serves
+            for (Running& one : all)
+                one.pipeline.reset();
+            input = upload_frame(session, shown, 0);
+        }
         FrameOfPipelines now{.input = input,
                              .contest = contest,
                              .number = task.number + '/' + std::to_string(frame),
-                             .scene = facts_of(task, scene, frame)};
-        if (frame > frames.first)
+                             .scene = facts_of(task, shown, frame)};
+        if (frame > frames.first && scene.later.empty())
             now.motions = object_motions(scene, frame - 1, frame);
-        now.file_faces = scene.file_faces;
+        now.file_faces = shown.file_faces;
         now.wants_lists = task.wants_lists;
         now.note = note_of(task, "frame " + std::to_string(frame), frame - frames.first,
                            frames.end - frames.first);
-        Found found{.scene = &scene};
+        Found found{.scene = &shown};
         add(run_frame(session, task, all, now, order, found), found);
     }
 }
@@ -63,7 +71,13 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
 
 Scene scene_of(const CollideTask& task, const SceneLibrary& library)
 {
-    Scene scene = scene_called(task.scene, task.may_stand_in, library);
+    SceneLibrary readers = library;
+    readers.any_topology = !task.swept && task.between == 0 &&
+                           std::ranges::none_of(task.pipelines, [](const PipelineChoice& pipeline) {
+                               return pipeline.collider.update == FrameUpdate::refit ||
+                                      find_collider(pipeline.collider.name).refits;
+                           });
+    Scene scene = scene_called(task.scene, task.may_stand_in, readers);
     if (task.objects != ObjectsBy::automatic)
         scene = with_objects(std::move(scene), task.objects);
     return task.between > 0 ? with_frames_between(scene, task.between) : scene;

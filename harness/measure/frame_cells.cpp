@@ -29,6 +29,7 @@ public:
             own_.emplace(std::move(found));
     }
 
+    bool is_right() const { return !own_; }
     const PairList& list() const { return own_ ? *own_ : right_.list().list; }
 
     /// Adds differences from the oracle's list to the check.
@@ -156,6 +157,8 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
             else
                 hold_inexact(contacts.list(), right.list().list, !frame.input.is_swept(), cell);
             found.contacts = contacts.in_file(frame, check.contacts_hash);
+            if (!frame.input.is_swept() && contacts.is_right())
+                cell.counters["touching_count"] = static_cast<double>(right.facts().touching);
         } else {
             if (check.verdict == Check::Verdict::agrees) {
                 check.verdict = Check::Verdict::not_checked;

@@ -14,6 +14,7 @@
 #include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/swept_reference.h"
+#include "collide/oracles/touching.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/terminal.h"
@@ -29,7 +30,7 @@ public:
     {
         if (!file_faces.empty())
             renumbered_ = renumbered(list, file_faces);
-        facts = {facts_of(list.pairs()), in_file().hash()};
+        facts = {.set = facts_of(list.pairs()), .file_hash = in_file().hash()};
     }
 
     /// The list with triangles numbered as in the scene's file.
@@ -148,12 +149,16 @@ public:
         if (!contacts.is_asked())
             contacts = Right(key_of(asked, 'c'), note_, [this, asked, pairs] {
                 const std::span<const Pair> candidates = pairs.get().list.pairs();
-                return Answer(
-                    input_.is_swept()
-                        ? pairs_of(touching_on_the_way(input_.points, input_.end_points,
-                                                       input_.faces, candidates))
-                        : intersecting_pairs(input_.points, input_.faces, candidates, asked.second),
+                if (input_.is_swept())
+                    return Answer(pairs_of(touching_on_the_way(input_.points, input_.end_points,
+                                                               input_.faces, candidates)),
+                                  file_faces_);
+                Answer answer(
+                    intersecting_pairs(input_.points, input_.faces, candidates, asked.second),
                     file_faces_);
+                answer.facts.touching =
+                    only_touching(input_.points, input_.faces, answer.list.pairs());
+                return answer;
             });
         return contacts;
     }

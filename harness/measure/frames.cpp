@@ -23,6 +23,8 @@ SceneFacts facts_of(const Scene& scene, std::string name, std::size_t frame)
             .outlier = scene.outlier,
             .rounding = scene.rounding,
             .bend_of = scene.bend_of,
+            .mesh = scene.facts,
+            .reading = scene.reading,
             .content_hash = scene.content_hash};
 }
 

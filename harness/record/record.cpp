@@ -15,6 +15,11 @@ BVHBENCH_TO_JSON(StageTime, stage, launches, busy_ns, span_ns, moved_bytes, star
 BVHBENCH_TO_JSON(SweptFacts, pairs, to_frame, primitives)
 BVHBENCH_TO_JSON(Outlier, of, triangle, diameters)
 BVHBENCH_TO_JSON(FirstRun, compile_ns, run_ns)
+BVHBENCH_TO_JSON(MeshFacts, unused_vertices, weldable_vertices, shared_edges, open_edges,
+                 nonmanifold_edges, without_area, duplicate, equal, low, high, longest_edge,
+                 median_edge, float_step, expected_pairs)
+BVHBENCH_TO_JSON(Reading, polygons_cut, polygons_concave, polygons_crossing, joined_vertices,
+                 surprises, ignored)
 
 static void to_json(Json& json, const Sample& sample)
 {
@@ -63,6 +68,10 @@ Json json_of(const SceneFacts& scene)
                 {"rounded_count", rounding.rounded_count},
                 {"largest_error", rounding.largest_error}};
         put_if(json, "bend_of", scene.bend_of);
+        if (scene.mesh) {
+            json["mesh"] = *scene.mesh;
+            json["reading"] = scene.reading;
+        }
         json["content_hash"] = hex(scene.content_hash);
     }
     return json;
@@ -82,6 +91,8 @@ Json json_of(const Check& check)
 }
 
 }  // namespace
+
+std::string scene_text(const SceneFacts& scene) { return one_line(json_of(scene)); }
 
 std::string cell_text(const Cell& cell)
 {
@@ -139,6 +150,8 @@ std::string cell_text(const Cell& cell)
     if (!cell.leaves_by_depth.empty())
         json["leaves_by_depth"] = cell.leaves_by_depth;
     json["check"] = json_of(cell.check);
+    for (const auto& [object, of] : cell.contained)
+        json["contained"].push_back({{"object", object}, {"inside", of}});
     return one_line(json);
 }
 

@@ -66,6 +66,8 @@ struct SceneFacts {
     Outlier outlier;  ///< empty name: no triangle was moved
     Rounding rounding;
     std::string bend_of;
+    std::optional<MeshFacts> mesh;  ///< of a scene that was read from a file
+    Reading reading;
     std::uint64_t content_hash = 0;
 };
 
@@ -118,10 +120,15 @@ struct Cell {
     std::map<std::string, std::string> left_out;  ///< counters without a value, with the reason
     std::vector<std::int64_t> leaves_by_depth;    ///< number of leaves per level, from the root on
     Check check;
+    /// Objects that lie wholly inside others, each with the name of the other (--containment).
+    std::vector<std::pair<std::string, std::string>> contained;
 };
 
 /// Format version of written files.
-inline const std::string result_format = "1.12";
+inline const std::string result_format = "1.13";
+
+/// Returns what a cell says about its scene, as one line of JSON.
+std::string scene_text(const SceneFacts& scene);
 
 /// Returns a cell as one line of JSON. Numbers that are not finite are left out.
 std::string cell_text(const Cell& cell);

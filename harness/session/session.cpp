@@ -20,6 +20,7 @@ SceneLibrary scene_library(const CommonOptions& common)
     const char* variable = std::getenv("BVHBENCH_DATA");
     library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
     library.doubles = doubles_called(common.doubles);
+    library.weld = common.weld;
     library.tell = [](const std::string& line) { std::cerr << line << '\n'; };
     return library;
 }

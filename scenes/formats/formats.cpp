@@ -16,6 +16,9 @@ void FileMesh::add_point(const FileNumber& x, const FileNumber& y, const FileNum
 
 void FileMesh::add_polygon(const std::vector<uint>& corners)
 {
+    if (corners.size() > 3)
+        polygons.push_back(
+            {static_cast<uint>(mesh.faces.size()), static_cast<uint>(corners.size() - 2)});
     for (std::size_t k = 2; k < corners.size(); ++k)
         mesh.faces.push_back({corners[0], corners[k - 1], corners[k]});
 }
@@ -25,6 +28,23 @@ void FileMesh::add_object(std::string_view name, std::size_t first)
     if (mesh.faces.size() > first)
         objects.push_back({std::string(name.empty() ? "unnamed" : name), static_cast<uint>(first),
                            static_cast<uint>(mesh.faces.size() - first)});
+}
+
+void list_ignored(const std::map<std::string, std::size_t>& counts, const std::string& of,
+                  Reading& reading)
+{
+    for (const auto& [word, count] : counts)
+        reading.ignored.push_back(std::to_string(count) + ' ' + of + (count == 1 ? " " : "s ") +
+                                  in_quotes(word));
+}
+
+std::string_view without_mark(std::string_view bytes, const std::string& name)
+{
+    if (bytes.starts_with("\xfe\xff") || bytes.starts_with("\xff\xfe"))
+        throw Unavailable(name + " is UTF-16 text, and text is read as ASCII or UTF-8 only");
+    if (bytes.starts_with("\xef\xbb\xbf"))
+        bytes.remove_prefix(3);
+    return bytes;
 }
 
 void LineReader::refuse(const std::string& what) const

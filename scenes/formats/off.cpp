@@ -55,8 +55,17 @@ private:
         const std::string_view whole = word;
         while (!word.empty() && std::string_view("STCN").find(word[0]) != word.npos)
             word.remove_prefix(1);
-        if (word != "OFF")
+        if (!word.starts_with("OFF"))
             refuse("an OFF file begins with OFF, and there is " + in_quotes(whole));
+        word.remove_prefix(3);
+        if (!word.empty()) {  // "OFF8 12 0", as files of ModelNet begin
+            if (word.find_first_not_of("0123456789") != word.npos)
+                refuse("an OFF file begins with OFF, and there is " + in_quotes(whole));
+            words_ = {word.data(), words_.data() + words_.size()};
+        }
+        std::string_view rest = words_;
+        if (next_word(rest) == "BINARY")
+            refuse("binary OFF is not read: export it as text");
     }
 
     /// Returns the vertex or face count. Each takes at least two bytes, which limits the count by the size of the file.
@@ -101,7 +110,7 @@ private:
 
 FileMesh read_off(std::string_view bytes, const std::string& name)
 {
-    return OffReader(bytes, name).read();
+    return OffReader(without_mark(bytes, name), name).read();
 }
 
 }  // namespace bvhbench

@@ -56,7 +56,7 @@ public:
             type.is_integer ? static_cast<double>(integer(type)) : binary_value(type);
         constexpr double largest = std::numeric_limits<float>::max();
         if (value > largest || value < -largest)
-            return {value, std::numeric_limits<float>::infinity(), false};
+            return {value, std::numeric_limits<float>::infinity(), std::isinf(value)};
         const auto rounded = static_cast<float>(value);
         return {value, rounded, double{rounded} == value || std::isnan(value)};
     }
@@ -149,13 +149,10 @@ public:
             values_.begin(element);
             if (element.name == "vertex")
                 vertices(element);
-            else if (element.name == "face")
+            else if (element.name == "face" || element.name == "tristrips")
                 faces(element);
             else
-                values_.each([&] {
-                    for (const PlyProperty& property : element.properties)
-                        values_.skip(property);
-                });
+                skip(element);
         }
         values_.end();
         if (!ids_.empty())
@@ -176,19 +173,38 @@ private:
         return found;
     }
 
+    void skip(const PlyElement& element)
+    {
+        values_.each([&] {
+            for (const PlyProperty& property : element.properties)
+                values_.skip(property);
+        });
+        if (element.count > 0)
+            file_.reading.ignored.push_back(std::to_string(element.count) + " of element " +
+                                            in_quotes(element.name));
+    }
+
     void check_header()
     {
         const PlyElement* const vertex = element_called("vertex");
         const PlyElement* const face = element_called("face");
-        if (vertex == nullptr || face == nullptr || face->count == 0)
+        const PlyElement* const strips = element_called("tristrips");
+        const auto has_some = [](const PlyElement* element) {
+            return element != nullptr && element->count > 0;
+        };
+        if (vertex == nullptr || (!has_some(face) && !has_some(strips)))
             throw Unavailable(name_ + " has no triangles");
+        if (has_some(face) && has_some(strips))
+            throw Unavailable(name_ + " has faces and tristrips, and one of the two is read");
         vertex_count_ = vertex->count;
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (std::ranges::count(vertex->properties, axis, &PlyProperty::axis) != 1)
                 throw Unavailable(name_ + " has vertices without one " + "xyz"[axis]);
-        const auto lists = std::ranges::count(face->properties, true, &PlyProperty::is_corner_list);
+        const PlyElement& faces = has_some(strips) ? *strips : *face;
+        const auto lists = std::ranges::count(faces.properties, true, &PlyProperty::is_corner_list);
         if (lists != 1)
-            throw Unavailable(name_ + " has faces with " + std::to_string(lists) +
+            throw Unavailable(name_ + " has " + (has_some(strips) ? "tristrips" : "faces") +
+                              " with " + std::to_string(lists) +
                               " lists called vertex_indices or vertex_index instead of one");
     }
 
@@ -210,35 +226,59 @@ private:
         });
     }
 
+    /// Reads faces, or triangle strips, whose corners are all corners of triangles, apart from -1, which ends a strip.
     void faces(const PlyElement& element)
     {
+        const bool are_strips = element.name == "tristrips";
         file_.mesh.faces.reserve(element.count);
         values_.each([&] {
             std::optional<std::int64_t> object;
             for (const PlyProperty& property : element.properties)
                 if (property.is_corner_list())
-                    corners(property);
+                    corners(property, are_strips);
                 else if (property.name == "object_id" && property.count_type == nullptr &&
                          property.type->is_integer)
                     object = values_.integer(*property.type);
                 else
                     values_.skip(property);
-            file_.add_polygon(corners_);
+            if (are_strips)
+                add_strips();
+            else
+                file_.add_polygon(corners_);
             if (object)
                 ids_.resize(file_.mesh.faces.size(), *object);
         });
     }
 
-    void corners(const PlyProperty& property)
+    /// Adds the triangles of strips. Every other one is turned round, so that all face the same side.
+    void add_strips()
+    {
+        std::size_t first = 0;  // of the strip
+        for (std::size_t k = 0; k < corners_.size(); ++k) {
+            if (corners_[k] == end_of_strip) {
+                first = k + 1;
+            } else if (k >= first + 2) {
+                const bool turned = (k - first) % 2 == 1;
+                file_.mesh.faces.push_back(
+                    {corners_[k - (turned ? 1 : 2)], corners_[k - (turned ? 2 : 1)], corners_[k]});
+            }
+        }
+    }
+
+    void corners(const PlyProperty& property, bool are_strips)
     {
         if (!property.type->is_integer)
             values_.refuse("its corners are not integers");
         const std::int64_t count = values_.integer(*property.count_type);
-        if (count < 3)
+        if (count < 3 && !are_strips)
             values_.refuse("a face takes three corners, and there are " + std::to_string(count));
         corners_.clear();
         for (std::int64_t k = 0; k < count; ++k) {
             const std::int64_t index = values_.integer(*property.type);
+            if (are_strips && (index == -1 || index == std::int64_t{end_of_strip})) {
+                corners_.push_back(end_of_strip);
+                continue;
+            }
             if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_)
                 values_.refuse("it names vertex " + std::to_string(index) + " of " +
                                std::to_string(vertex_count_));
@@ -270,6 +310,7 @@ private:
     std::vector<uint> corners_;
     std::vector<std::int64_t> ids_;  ///< object_id of each triangle; empty: the file has none
     std::uint64_t vertex_count_ = 0;
+    static constexpr uint end_of_strip = 0xffffffffu;
 };
 
 }  // namespace

@@ -43,6 +43,8 @@ FileMesh read_binary(std::string_view bytes)
     return file;
 }
 
+/// Reads text, in upper or lower case. Solids, facets and their corners nest, and each is closed before the next begins. Loops may
+/// be left out.
 class AsciiStl : LineReader {
 public:
     using LineReader::LineReader;
@@ -51,42 +53,62 @@ public:
     {
         while (const auto line = lines_.next())
             statement(*line);
-        if (in_solid_)
-            refuse("the file ends inside a solid");
+        if (facet_line_ != 0)
+            refuse("the file ends inside the facet of line " + std::to_string(facet_line_));
+        if (solid_line_ != 0)
+            refuse("the file ends inside a solid, of line " + std::to_string(solid_line_));
         return result();
     }
 
 private:
     void statement(std::string_view words)
     {
-        const std::string_view keyword = next_word(words);
-        const auto is = [keyword](std::string_view lower, std::string_view upper) {
-            return keyword == lower || keyword == upper;
-        };
-        if (is("solid", "SOLID")) {
-            in_solid_ = true;
+        const std::string keyword = lower_case(next_word(words));
+        if (keyword == "solid") {
+            expect_closed(facet_line_, "a solid begins", "facet");
+            expect_closed(solid_line_, "a solid begins", "solid");
+            solid_line_ = lines_.number();
             solid_ = next_word(words);
             first_face_ = file_.mesh.faces.size();
-        } else if (is("endsolid", "ENDSOLID")) {
-            in_solid_ = false;
+        } else if (keyword == "endsolid") {
+            expect_closed(facet_line_, "a solid ends", "facet");
+            expect_open(solid_line_, "endsolid", "solid");
+            solid_line_ = 0;
             file_.add_object(solid_, first_face_);
-            first_face_ = file_.mesh.faces.size();
-        } else if (is("facet", "FACET")) {
+        } else if (keyword == "facet") {
+            expect_open(solid_line_, "a facet", "solid");
+            expect_closed(facet_line_, "a facet begins", "facet");
+            facet_line_ = lines_.number();
             facet_.clear();
-        } else if (is("vertex", "VERTEX")) {
+        } else if (keyword == "vertex") {
+            expect_open(facet_line_, "a vertex", "facet");
             vertex(words);
-        } else if (is("endfacet", "ENDFACET")) {
+        } else if (keyword == "endfacet") {
+            expect_open(facet_line_, "endfacet", "facet");
             close_facet();
-        } else if (!keyword.empty() && !is("outer", "OUTER") && !is("endloop", "ENDLOOP")) {
+        } else if (!keyword.empty() && keyword != "outer" && keyword != "endloop") {
             refuse("not a word of an ascii STL file: " + in_quotes(keyword));
         }
+    }
+
+    void expect_closed(std::size_t line, const std::string& what, const std::string& of) const
+    {
+        if (line != 0)
+            refuse(what + ", and the " + of + " of line " + std::to_string(line) + " has no end" +
+                   of);
+    }
+
+    void expect_open(std::size_t line, const std::string& what, const std::string& of) const
+    {
+        if (line == 0)
+            refuse(what + " stands outside of a " + of);
     }
 
     void vertex(std::string_view words)
     {
         constexpr const char* what = "a facet takes three vertices of three numbers, and there is ";
         facet_.push_back(point(words, what));
-        if (facet_.size() > 3 || !in_solid_)
+        if (facet_.size() > 3)
             refuse(what + in_quotes(words));
     }
 
@@ -97,13 +119,16 @@ private:
         for (const auto& [x, y, z] : facet_)
             file_.add_point(x, y, z);
         add_facet(file_.mesh);
-        facet_.clear();
+        facet_line_ = 0;
     }
 
     std::vector<std::array<FileNumber, 3>> facet_;
     std::string solid_;
-    bool in_solid_ = false;
+    std::size_t solid_line_ = 0, facet_line_ = 0;  ///< where the open one begins; 0: none is open
 };
+
+/// True if a file of another size than a binary one is meant to be binary: text has no zero bytes.
+bool looks_binary(std::string_view bytes) { return bytes.substr(0, 1000).find('\0') != bytes.npos; }
 
 }  // namespace
 
@@ -115,10 +140,10 @@ FileMesh read_stl(std::string_view bytes, const std::string& name)
         has_header ? binary_header + binary_facet * std::size_t{facet_count(bytes)} : 0;
     if (has_header && bytes.size() == expected)
         return read_binary(bytes);
-    std::string_view words = bytes.substr(0, 1000);
-    const std::string_view first = next_word(words);
-    if (first == "solid" || first == "SOLID")
-        return AsciiStl(bytes, name).read();
+    const std::string_view text = without_mark(bytes, name);
+    std::string_view words = text.substr(0, 1000);
+    if (lower_case(next_word(words)) == "solid" && !looks_binary(bytes))
+        return AsciiStl(text, name).read();
     if (!has_header)
         throw Unavailable(name + " is neither an ascii nor a binary STL file");
     throw Unavailable(name + " says " + std::to_string(facet_count(bytes)) +

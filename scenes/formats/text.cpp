@@ -22,6 +22,21 @@ double last_unit(std::string_view word)
     return std::pow(10.0, static_cast<double>(exponent - decimals));
 }
 
+/// True if a decimal number is less than 1: for numbers far beyond the range of doubles.
+bool is_small(std::string_view word)
+{
+    const std::size_t e = std::min(word.find_first_of("eE"), word.size());
+    const std::size_t point = std::min(word.find('.'), e);
+    const std::size_t digit = std::min(word.find_first_of("123456789"), e);
+    const auto place = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(digit);
+    const std::string_view exponent = word.substr(std::min(e + 1, word.size()));
+    const std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
+    return place + parse_integer(exponent).value_or(exponent.empty()            ? 0
+                                                    : exponent.starts_with('-') ? -most
+                                                                                : most) <=
+           0;
+}
+
 std::string_view without_plus(std::string_view word)
 {
     const bool signed_twice = word.size() > 1 && (word[1] == '-' || word[1] == '+');
@@ -60,8 +75,7 @@ std::optional<FileNumber> parse_number(std::string_view word)
     if (stop != end || error == std::errc::invalid_argument)
         return std::nullopt;
     if (error == std::errc::result_out_of_range) {  // too large or too small
-        const bool small = word.find("e-") != word.npos || word.find("E-") != word.npos;
-        number.rounded = small ? 0.0f : std::numeric_limits<float>::infinity();
+        number.rounded = is_small(word) ? 0.0f : std::numeric_limits<float>::infinity();
         number.wide = number.rounded;
         return number;
     }
@@ -82,6 +96,15 @@ std::optional<std::int64_t> parse_integer(std::string_view word)
     if (stop != end || error != std::errc{})
         return std::nullopt;
     return value;
+}
+
+std::string lower_case(std::string_view word)
+{
+    std::string lower(word);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c + 32);
+    return lower;
 }
 
 std::string in_quotes(std::string_view word)

@@ -43,6 +43,9 @@ std::optional<FileNumber> parse_number(std::string_view word);
 /// Parses the whole of `word` as a decimal integer; nothing if it is none or is out of range.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
+/// Returns `word` with A to Z as small letters, in any locale.
+std::string lower_case(std::string_view word);
+
 /// Returns `word` in quotes for a message: shortened, with unprintable bytes as '?'.
 std::string in_quotes(std::string_view word);
 

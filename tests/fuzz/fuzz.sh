@@ -3,7 +3,8 @@
 # Fuzzes our readers with libFuzzer under the address and undefined-behaviour sanitizers:
 #   tests/fuzz/fuzz.sh SECONDS [READER...]      each reader so long; all of tests/fuzz/corpus by default
 #
-# Readers are compiled by clang with its instruments, into build/fuzz; all else comes from build/release, which must stand.
+# Readers are compiled by clang with its instruments, into build/fuzz; all else comes from build/release, which must stand. Its
+# libraries hold the readers too, many sources in an object, so the linker takes the first definition of each, which is clang's.
 # Exits 1 if something is found: it lies in build/fuzz as crash-*; make it a test, and then a seed. Needs libclang-rt-14-dev besides packages.txt.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
@@ -17,7 +18,7 @@ mkdir -p "$to"
 flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-sanitize-recover=undefined -I.
     -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1)
 objects=()
-for source in scenes/formats/{formats,obj,off,ply,ply_header,stl,text}.cpp scenes/{ground_truth,sequence_facts}.cpp \
+for source in scenes/formats/{formats,gltf,gltf_file,obj,off,ply,ply_header,polygons,stl,text}.cpp scenes/{doubles,face_order,facts,finish,ground_truth,sequence_facts}.cpp \
     harness/choice/{choices,experiment,experiment_lists,scene_choice}.cpp plugins/protocol.cpp \
     harness/base/json_keys.cpp harness/commands/{program,words}.cpp harness/session/tuning_file.cpp; do
     object=$to/${source//\//_}.o
@@ -28,10 +29,10 @@ libraries=()
 for room in harness plugins cluster scenes baselines collide oibvh builders device geometry; do
     libraries+=("$from/$room/lib$room.a")
 done
-libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lccd -lgmp -lmpfr -ltbb -lmpi -lpthread -ldl)
+libraries+=($(find "$from/CMakeFiles/kernels.dir" -name "*.o") -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lccd -lgmp -lmpfr -ltbb -lmpi -lpthread -ldl)
 found=0
 for reader in "$@"; do
-    clang++-14 "${flags[@]}" -fsanitize=fuzzer -DREADER="$reader" tests/fuzz/reader.cpp "${objects[@]}" "${libraries[@]}" \
+    clang++-14 "${flags[@]}" -fsanitize=fuzzer -Wl,-z,muldefs -DREADER="$reader" tests/fuzz/reader.cpp "${objects[@]}" "${libraries[@]}" \
         -o "$to/$reader"
     mkdir -p "$to/corpus/$reader"
     echo "== $reader"

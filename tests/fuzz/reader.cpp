@@ -11,8 +11,11 @@
 #include "harness/commands/command.h"
 #include "harness/session/tuning_file.h"
 #include "plugins/protocol.h"
+#include "scenes/face_order.h"
+#include "scenes/facts.h"
 #include "scenes/formats/formats.h"
 #include "scenes/ground_truth.h"
+#include "scenes/mesh_file.h"
 #include "scenes/sequence.h"
 
 namespace bvhbench {
@@ -38,10 +41,32 @@ namespace {
     check_words(static_cast<int>(argv.size()), argv.data());
 }
 
-[[maybe_unused]] void ply(const std::string& bytes) { read_ply(bytes, "fuzz"); }
-[[maybe_unused]] void obj(const std::string& bytes) { read_obj(bytes, "fuzz"); }
-[[maybe_unused]] void off(const std::string& bytes) { read_off(bytes, "fuzz"); }
-[[maybe_unused]] void stl(const std::string& bytes) { read_stl(bytes, "fuzz"); }
+/// Makes a scene of what was read, as loading a file does.
+void make_scene(FileMesh file)
+{
+    cut_polygons(file, "fuzz");
+    Scene scene;
+    scene.name = scene.source = "fuzz";
+    scene.frames.push_back(std::move(file.mesh.points));
+    if (!file.floats_hold)
+        scene.rounding = round_frames({&file.wide, 1}, Doubles::recentred, scene.frames);
+    take_mesh(scene, std::move(file));
+    scene = finished(std::move(scene));
+    scene.facts = mesh_facts(scene, 8);
+    surprises(scene);
+    if (!scene.groups.empty())
+        with_objects(scene, ObjectsBy::groups);
+    welded(std::move(scene));
+}
+
+[[maybe_unused]] void ply(const std::string& bytes) { make_scene(read_ply(bytes, "fuzz")); }
+[[maybe_unused]] void obj(const std::string& bytes) { make_scene(read_obj(bytes, "fuzz")); }
+[[maybe_unused]] void off(const std::string& bytes) { make_scene(read_off(bytes, "fuzz")); }
+[[maybe_unused]] void stl(const std::string& bytes) { make_scene(read_stl(bytes, "fuzz")); }
+[[maybe_unused]] void gltf(const std::string& bytes)
+{
+    make_scene(read_gltf(bytes, "fuzz", [](const std::string&) { return std::string(64, '\1'); }));
+}
 
 [[maybe_unused]] void sequence_facts(const std::string& bytes)
 {

@@ -86,5 +86,45 @@ TEST(ObjectsBy, IsChosenByName)
     EXPECT_THROW(objects_by_called("parts"), BadUsage);
 }
 
+TEST(ObjectsBy, GroupsAreThoseThatTheFileNames)
+{
+    const Folder folder;
+    const std::string points = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    const std::string file = folder.file(
+        "a.obj", points + "f 1 2 3\ng left wing\nf 1 2 3\ng body\nf 1 3 2\ng left wing\nf 3 2 1\n");
+    const Scene scene = with_objects(load_scene(file, {}), ObjectsBy::groups);
+    ASSERT_EQ(scene.objects.size(), 3u);
+    EXPECT_EQ(scene.objects[0].name, "default");
+    EXPECT_EQ(scene.objects[1].name, "left wing");
+    EXPECT_EQ(scene.objects[1].face_count, 2u);
+    EXPECT_EQ(scene.file_faces, (std::vector<uint>{0, 1, 3, 2}));
+    EXPECT_EQ(load_scene(file, {}).objects.size(), 1u);
+    EXPECT_THROW(
+        with_objects(load_scene(folder.file("b.obj", points + "f 1 2 3\n"), {}), ObjectsBy::groups),
+        BadUsage);
+}
+
+TEST(Weld, JoinsVerticesThatAreInOnePlaceInEveryFrame)
+{
+    const Folder folder;
+    // Two triangles that share an edge in space; the corner behind is in one place in the first frame only.
+    const auto frame = [](const char* last) {
+        return std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv -0 1 0\nv 1 1 0\nv ") + last +
+               "\nv 3 0 0\nv 3 1 0\nf 1 2 3\nf 4 6 5\nf 7 8 9\n";
+    };
+    folder.file("a1.obj", frame("1 1 0"));
+    folder.file("a2.obj", frame("2 1 0"));
+    SceneLibrary library;
+    EXPECT_EQ(load_scene(folder.path().string(), library).objects.size(), 3u);
+    library.weld = true;
+    const Scene scene = load_scene(folder.path().string(), library);
+    EXPECT_EQ(scene.objects.size(), 2u);  // connected parts, found again
+    EXPECT_EQ(scene.reading.joined_vertices, 2u);
+    EXPECT_EQ(scene.frames[1].size(), 7u);
+    EXPECT_EQ(scene.frames[1][4].x, 2.0f);
+    EXPECT_EQ(scene.facts->shared_edges, 1u);
+    EXPECT_EQ(scene.facts->weldable_vertices, 0u);
+}
+
 }  // namespace
 }  // namespace bvhbench

@@ -105,6 +105,35 @@ TEST(Sequence, TakesObjectsFromItsMetaWhereTheMeshNamesNone)
     }
 }
 
+TEST(Sequence, LeavesTheObjectOfEachTriangleToTheMeshWhereItsMetaNamesNoFirst)
+{
+    const Folder folder;
+    std::string mixed = mesh;  // the object of id 1 comes first, and 0 behind it
+    mixed.replace(mixed.find("3 0 1 2 0"), 9, "3 0 1 2 1");
+    mixed.replace(mixed.find("3 3 4 5 1"), 9, "3 3 4 5 0");
+    folder.file("mesh.ply", mixed);
+    folder.file("frames.f32", frame_bytes(2));
+    const auto loaded = [&](const std::string& second) {
+        folder.file("meta.json",
+                    R"({"objects": [{"id": 0, "name": "a", "face_first": null, "face_count": 1},
+{"name": "b", "face_count": )" +
+                        second + "}]}");
+        return load_scene(folder.path().string(), {});
+    };
+    const Scene scene = loaded("1");
+    EXPECT_EQ(scene.objects[0].name, "a");
+    EXPECT_EQ(scene.file_faces, (std::vector<uint>{1, 0}));
+    EXPECT_THROW(loaded("2"), Unavailable);
+    EXPECT_THROW(loaded(R"(1, "id": 5)"), Unavailable);
+    std::string plain = mesh;
+    plain.replace(plain.find("property ushort object_id\n"), 26, "");
+    plain.replace(plain.find("3 0 1 2 0"), 9, "3 0 1 2");
+    plain.replace(plain.find("3 3 4 5 1"), 9, "3 3 4 5");
+    folder.file("mesh.ply", plain);
+    EXPECT_TRUE(contains(refusal(folder.path().string()),
+                         "without a face_first, and the mesh has no object_id"));
+}
+
 TEST(Sequence, RefusesAMetaThatDisagrees)
 {
     EXPECT_EQ(meta_refusal("{}"), "loaded");
@@ -154,8 +183,33 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     EXPECT_EQ(scene.frame_labels, (std::vector<std::string>{"9", "10"}));
     EXPECT_FALSE(scene.has_meshes);  // components were found, but no names
 
-    folder.file("cloth11.obj", points("11") + "f 1 3 2\nf 4 5 6\n");
+    folder.file("cloth11.obj", points("11") + "f 1 3 2\nf 4 5 6\nf 1 2 4\n");
     EXPECT_TRUE(contains(refusal(folder.path().string()), "cloth11.obj has other triangles than "));
+    SceneLibrary any;
+    any.any_topology = true;
+    const Scene changing = load_scene(folder.path().string(), any);
+    ASSERT_EQ(changing.frame_count(), 3u);
+    EXPECT_EQ(changing.with_frame(1).faces.size(), 2u);
+    EXPECT_EQ(changing.with_frame(1).frames[0][3].z, 10.0f);
+    EXPECT_EQ(changing.with_frame(2).faces.size(), 3u);
+    EXPECT_EQ(changing.with_frame(2).objects.size(), 1u);
+    EXPECT_NE(changing.with_frame(2).content_hash, changing.with_frame(1).content_hash);
+}
+
+TEST(Sequence, PassesOverFilesOfAnotherFormat)
+{
+    const Folder folder;
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    folder.file("scan_1.obj", text);
+    folder.file("meta_3.xml", "<xml/>");
+    EXPECT_TRUE(contains(refusal(folder.path().string()), "has as many frames in .obj as in .xml"));
+    folder.file("scan_2.obj", text);
+    std::string told;
+    SceneLibrary library;
+    library.tell = [&](const std::string& line) { told = line; };
+    EXPECT_EQ(load_scene(folder.path().string(), library).frames.size(), 2u);
+    EXPECT_TRUE(
+        contains(told, "its frames are the 2 files in .obj, and 1 in .xml are passed over"));
 }
 
 TEST(Sequence, IsNotAnyFolder)

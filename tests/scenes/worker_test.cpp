@@ -8,31 +8,27 @@ namespace bvhbench {
 namespace {
 
 // Two instances of a square of two triangles, the second moved by 10 along x.
-constexpr const char* gltf =
-    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
-"nodes": [{"mesh": 0, "name": "still"}, {"mesh": 0, "name": "moved", "translation": [10, 0, 0]}],
-"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-"accessors": [
- {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
- {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
-"bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
-"buffers": [{"byteLength": 60, "uri": "square.bin"}]})";
-
-std::string square_bytes()
-{
-    const float points[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-    const std::uint16_t corners[] = {0, 1, 2, 0, 2, 3};
-    std::string bytes(reinterpret_cast<const char*>(points), sizeof points);
-    return bytes.append(reinterpret_cast<const char*>(corners), sizeof corners);
-}
+constexpr const char* dae =
+    R"(<COLLADA version="1.4.1"><asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id="g"><mesh><source id="p">
+<float_array id="a" count="15">0 0 0 1 0 0 1 1 0 0 1 0 9 9 9</float_array><technique_common><accessor source="#a" count="5" stride="3">
+<param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="2"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 1 2 0 2 3</p></triangles></mesh></geometry></library_geometries><library_visual_scenes><visual_scene id="s">
+<node id="still"><instance_geometry url="#g"/></node><node id="moved"><translate>10 0 0</translate><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
 
 TEST(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
 {
     const Folder folder;
-    folder.file("square.bin", square_bytes());
-    const Scene scene = load_scene(folder.file("square.gltf", gltf), {});
+    std::string told;
+    SceneLibrary library;
+    library.tell = [&](const std::string& line) { told = line; };
+    const Scene scene = load_scene(folder.file("square.dae", dae), library);
     ASSERT_EQ(scene.triangle_count(), 4u);
     ASSERT_EQ(scene.frames[0].size(), 8u);  // shared within an instance, not between instances
+    EXPECT_EQ(scene.reading.joined_vertices, 4u);
+    EXPECT_TRUE(contains(
+        told, "its corners come without common vertices, and 4 of equal position were joined"));
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].name, "moved");
     EXPECT_EQ(scene.objects[1].first_face, 2u);
@@ -42,19 +38,18 @@ TEST(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
 TEST(Worker, SaysWhyAssimpRefuses)
 {
     const Folder folder;
-    const std::string message = refusal(folder.file("bad.gltf", "{]"));
+    const std::string message = refusal(folder.file("bad.dae", "{]"));
     EXPECT_TRUE(contains(message, "Unavailable: "));
-    EXPECT_TRUE(contains(message, "bad.gltf is not read: assimp says: "));
+    EXPECT_TRUE(contains(message, "bad.dae is not read: assimp says: "));
     EXPECT_EQ(message.find('\n'), message.npos);
 }
 
 TEST(Worker, IsEndedWhenItsTimeIsOver)
 {
     const Folder folder;
-    folder.file("square.bin", square_bytes());
     SceneLibrary library;
     library.time_limit_s = 1e-4;  // no process starts this fast
-    EXPECT_TRUE(contains(refusal(folder.file("square.gltf", gltf), library),
+    EXPECT_TRUE(contains(refusal(folder.file("square.dae", dae), library),
                          "Unavailable: the reader took longer than 0.0001 s on "));
 }
 
@@ -64,10 +59,9 @@ TEST(Worker, MayNotUseMoreMemoryThanItIsGiven)
     GTEST_SKIP() << "address space is not limited under the address sanitizer";
 #endif
     const Folder folder;
-    folder.file("square.bin", square_bytes());
     SceneLibrary library;
     library.memory_limit_bytes = 1 << 16;
-    EXPECT_TRUE(contains(refusal(folder.file("square.gltf", gltf), library), "Unavailable: "));
+    EXPECT_TRUE(contains(refusal(folder.file("square.dae", dae), library), "Unavailable: "));
 }
 
 TEST(Process, TellsHowItEnded)

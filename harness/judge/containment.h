@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "collide/pairs.h"
+#include "scenes/scene.h"
+
+namespace bvhbench {
+
+/// An object that lies wholly inside another one, by their indices in the scene.
+struct Contained {
+    std::size_t object = 0, inside_of = 0;
+    bool operator==(const Contained&) const = default;
+};
+
+/// Objects of a frame that lie inside others, and how many objects nothing can be inside of, because they are not closed.
+struct Containment {
+    std::vector<Contained> found;
+    std::size_t open_objects = 0;
+};
+
+/// Returns which objects lie wholly inside a closed object that they have no contact with. An object is closed if each of its edges
+/// belongs to an even number of its triangles. `contacts` are all exact contacts between objects, numbered as in the file. Decides by
+/// whether a ray crosses the closed object's surface an odd number of times, exactly.
+Containment containment(const Scene& scene, std::size_t frame, std::span<const Pair> contacts);
+
+}  // namespace bvhbench
