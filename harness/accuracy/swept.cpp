@@ -16,7 +16,8 @@ namespace {
 constexpr std::pair<const char*, const char*> own_scenes[] = {
     {"unc_cloth_ball", "cloth-ball:20000:20"},
     {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
-    {"unc_nbody", "n-body:20000:20"}};
+    {"unc_nbody", "n-body:20000:20"},
+    {"unc_cloth_funnel", "cloth-funnel:18000:20"}};
 
 /// A scene's name, and the name of the scene it replaces; empty if none.
 using NamedScene = std::pair<std::string, std::string>;
