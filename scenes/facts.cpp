@@ -18,6 +18,9 @@ namespace {
 /// Notices are given where a float's step is more than this share of the median edge, and for more pairs a triangle than this.
 constexpr double coarse = 1.0 / 256, many_pairs = 1000;
 
+/// Boxes that are tested for an estimate of pairs, but by so many samples at least.
+constexpr std::size_t most_tests = 200'000'000, least_samples = 16;
+
 using Corners = std::array<uint, 3>;
 
 std::vector<bool> used_vertices(const Scene& scene)
@@ -115,7 +118,7 @@ Aabb box_of(const Scene& scene, std::size_t face)
 double estimated_pairs(const Scene& scene, std::size_t samples)
 {
     const std::size_t faces = scene.faces.size();
-    samples = std::min(samples, faces);
+    samples = std::min({samples, faces, std::max(least_samples, most_tests / faces)});
     std::vector<std::uint64_t> found(samples);
     on_all_cores(samples, [&](std::size_t k) {
         const std::size_t sample = k * faces / samples;

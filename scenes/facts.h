@@ -8,7 +8,8 @@
 
 namespace bvhbench {
 
-/// Returns the facts about a finished scene. Pairs are estimated by `samples` triangles, whose boxes are tested against all.
+/// Returns the facts about a finished scene. Pairs are estimated by `samples` triangles, fewer of a large scene, whose boxes are tested
+/// against all.
 MeshFacts mesh_facts(const Scene& scene, std::size_t samples);
 
 /// Returns what will surprise about a scene that was read from a file, in one line; empty if nothing does.

@@ -7,6 +7,7 @@
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "scenes/face_order.h"
+#include "scenes/formats/assimp_faults.h"
 
 namespace bvhbench {
 namespace {
@@ -64,10 +65,15 @@ std::string file_bytes(const std::filesystem::path& path, std::uint64_t times)
     return bytes;
 }
 
+bool is_read_here(const std::string& extension)
+{
+    return plain_reader(extension) != nullptr || is_gltf(extension);
+}
+
 bool is_mesh_file(const std::filesystem::path& path)
 {
     const std::string extension = lower_extension(path);
-    return plain_reader(extension) != nullptr || is_gltf(extension) || assimp_knows(extension);
+    return is_read_here(extension) || assimp_knows(extension);
 }
 
 FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library)
@@ -83,8 +89,9 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& l
                              return file_bytes(path.parent_path() / beside, bytes_a_file_byte);
                          });
     } else if (assimp_knows(extension)) {
-        require_host_memory("reading " + in_quotes(path.string()),
-                            bytes_a_file_byte * std::filesystem::file_size(path));
+        if (const std::string fault = assimp_fault(file_bytes(path, bytes_a_file_byte), extension);
+            !fault.empty())
+            throw Unavailable(path.string() + " is not read: " + fault);
         file = read_in_worker(path, library);
     } else {
         throw Unavailable(path.string() + " is of a format that is not read, '" + extension + "'");

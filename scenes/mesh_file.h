@@ -12,7 +12,10 @@ std::string file_bytes(const std::filesystem::path& path, std::uint64_t times = 
 /// True if `read_mesh_file` can read files with this extension.
 bool is_mesh_file(const std::filesystem::path& path);
 
-/// Reads a mesh file by its extension: .obj, .ply, .off and .stl with the readers of formats/, other formats with assimp in a
+/// True if files with this extension (".obj") are read by formats/, not by assimp.
+bool is_read_here(const std::string& extension);
+
+/// Reads a mesh file by its extension: .obj, .ply, .off, .stl, .gltf and .glb with the readers of formats/, other formats with assimp in a
 /// worker process. Throws Unavailable.
 FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library);
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <new>
+#include <set>
 #include <sstream>
 
 #include "geometry/error.h"
@@ -24,6 +26,9 @@ constexpr const char* argument = "--read-mesh";
 constexpr const char* marker = "BVHBENCH_MESH_WORKER";
 
 constexpr std::string_view magic = "BVHMESH2";
+
+/// Memory that the reader of a file may take at most. Files that are compressed become 50 times as large.
+constexpr std::uint64_t least_memory = std::uint64_t{512} << 20, memory_a_file_byte = 200;
 
 template <class List>
 void put(std::string& message, const List& list)
@@ -50,21 +55,38 @@ bool take(std::string_view& message, List& list)
     return true;
 }
 
-/// Flattens the node hierarchy: each mesh of each node becomes an object.
+/// Flattens the node hierarchy. Each mesh of each node becomes an object. assimp makes several meshes of one in the file that has
+/// several materials: they have one name and different materials, and become one object again.
 class Flattened {
 public:
-    explicit Flattened(const aiScene& scene) : scene_(scene) {}
+    /// With `names_are_unique`, as in COLLADA, meshes of one name on a node are one in the file.
+    Flattened(const aiScene& scene, bool names_are_unique)
+        : scene_(scene), names_are_unique_(names_are_unique)
+    {}
 
     FileMesh file;
 
     void add(const aiNode& node, const aiMatrix4x4& above)
     {
         const aiMatrix4x4 transform = above * node.mTransformation;
+        const aiMesh* before = nullptr;
+        std::set<unsigned> materials;  // of the object
+        std::size_t first_face = file.mesh.faces.size();
         for (unsigned k = 0; k < node.mNumMeshes; ++k) {
             if (node.mMeshes[k] >= scene_.mNumMeshes)
                 throw Unavailable("a node names a mesh that is not there");
-            add_mesh(*scene_.mMeshes[node.mMeshes[k]], transform, node.mName.C_Str());
+            const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[k]];
+            if (before == nullptr || before->mName != mesh.mName ||
+                (!materials.insert(mesh.mMaterialIndex).second && !names_are_unique_)) {
+                file.add_object(node.mName.C_Str(), first_face);
+                first_face = file.mesh.faces.size();
+                materials = {mesh.mMaterialIndex};
+                joined_.clear();
+            }
+            add_mesh(mesh, transform);
+            before = &mesh;
         }
+        file.add_object(node.mName.C_Str(), first_face);
         for (unsigned k = 0; k < node.mNumChildren; ++k)
             add(*node.mChildren[k], transform);
     }
@@ -90,11 +112,9 @@ public:
     }
 
 private:
-    void add_mesh(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name)
+    void add_mesh(const aiMesh& mesh, const aiMatrix4x4& transform)
     {
-        const std::size_t first_face = file.mesh.faces.size();
         places_.assign(mesh.mNumVertices, unmade);
-        joined_.clear();
         const bool is_split = gives_each_corner_a_vertex(mesh);
         std::vector<uint> corners;
         for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
@@ -113,7 +133,6 @@ private:
             }
             file.add_polygon(corners);
         }
-        file.add_object(name, first_face);
         skins_ += mesh.mNumBones > 0 ? 1 : 0;
         morphs_ += mesh.mNumAnimMeshes;
     }
@@ -128,13 +147,15 @@ private:
         return mesh.mNumFaces > 1 && corners == mesh.mNumVertices;
     }
 
-    /// Returns the point of a vertex. Vertices of equal position in a split mesh have one point.
+    /// Returns the point of a vertex. Vertices of equal position in split meshes of one object have one point.
     uint point(const aiMesh& mesh, const aiMatrix4x4& transform, unsigned vertex, bool is_split)
     {
         uint& place = places_[vertex];
         if (place != unmade)
             return place;
         const aiVector3D& from = mesh.mVertices[vertex];
+        if (!std::isfinite(from.x) || !std::isfinite(from.y) || !std::isfinite(from.z))
+            throw Unavailable("it has a vertex that is not finite");
         if (is_split) {
             const auto [known, is_new] =
                 joined_.try_emplace({from.x + 0.0f, from.y + 0.0f, from.z + 0.0f},
@@ -156,8 +177,9 @@ private:
     static constexpr uint unmade = 0xffffffffu;
 
     const aiScene& scene_;
+    bool names_are_unique_;
     std::vector<uint> places_;                     ///< the point of each vertex of the current mesh
-    std::map<std::array<float, 3>, uint> joined_;  ///< the point at each position, in a split mesh
+    std::map<std::array<float, 3>, uint> joined_;  ///< the point at each position, in split meshes
     std::size_t skipped_ = 0, skins_ = 0, morphs_ = 0;
 };
 
@@ -175,7 +197,7 @@ FileMesh read_with_assimp(const std::string& path)
     }
     if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
         throw Unavailable("assimp could not read all of it");
-    Flattened flattened(*scene);
+    Flattened flattened(*scene, lower_case(path).ends_with(".dae"));
     flattened.add(*scene->mRootNode, aiMatrix4x4());
     flattened.list_rest();
     cut_polygons(flattened.file, path);
@@ -284,9 +306,12 @@ FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& l
 {
     if (std::getenv(marker) != nullptr)
         throw std::logic_error("main does not begin with is_mesh_worker, see scenes/mesh_worker.h");
-    // The mesh is in the memory of the worker and of this process, so each gets at most half.
+    // The mesh is in the memory of the worker and of this process, so each gets at most half. A damaged file of some bytes makes
+    // assimp ask for all that it may have.
+    const std::uint64_t enough =
+        least_memory + memory_a_file_byte * std::filesystem::file_size(path);
     const std::uint64_t memory =
-        std::min<std::uint64_t>(library.memory_limit_bytes, host_memory_left() / 2);
+        std::min<std::uint64_t>({library.memory_limit_bytes, host_memory_left() / 2, enough});
     const ProcessEnd end =
         run_process({"/proc/self/exe", argument, path.string(), std::to_string(memory)},
                     library.time_limit_s, std::string(marker) + "=1");

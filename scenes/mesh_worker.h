@@ -28,7 +28,7 @@ int mesh_worker_main(int argc, char** argv);
 bool assimp_knows(const std::string& extension);
 
 /// Reads `path` with assimp. Each instance of a mesh becomes an object, transformed by the nodes above it. In a mesh whose corners
-/// have no vertex in common, those of equal position become one; vertices that no face names are left out; points and lines are
+/// have no vertex in common, those of equal position become one, across its materials; vertices that no face names are left out; points and lines are
 /// skipped. Throws Unavailable if assimp refuses the file,
 /// crashes, or exceeds a limit of `library`.
 FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& library);

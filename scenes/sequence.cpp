@@ -48,7 +48,8 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
 /// The mesh files of a folder, by their numbers.
 using NumberedFiles = std::map<std::int64_t, std::filesystem::path>;
 
-/// Returns the numbered files of the format that most of them have. If there are others, `passed_over` says so.
+/// Returns the numbered files of one format: that of most of them, and one that is read here before those that assimp reads. If there
+/// are others, `passed_over` says so. Hidden files are none.
 NumberedFiles numbered_files(const std::filesystem::path& folder, std::string& passed_over)
 {
     std::map<std::string, NumberedFiles> formats;  // by extension
@@ -58,7 +59,8 @@ NumberedFiles numbered_files(const std::filesystem::path& folder, std::string& p
         throw Unavailable(folder.string() + " cannot be read: " + error.message());
     for (const auto& entry : entries) {
         // Any other file that is named like a frame counts as one; reading it gives the reason why it is not valid.
-        if (!is_mesh_file(entry.path()) || entry.is_directory(error))
+        if (!is_mesh_file(entry.path()) || entry.is_directory(error) ||
+            entry.path().filename().string().starts_with('.'))
             continue;
         const auto number = frame_number(entry.path());
         if (!number)
@@ -70,14 +72,14 @@ NumberedFiles numbered_files(const std::filesystem::path& folder, std::string& p
     }
     if (formats.empty())
         return {};
-    const auto fewer = [](const auto& a, const auto& b) {
-        return a.second.size() < b.second.size();
+    const auto rank = [](const auto& format) {
+        return std::pair(is_read_here(format.first), format.second.size());
     };
-    const auto most = std::ranges::max_element(formats, fewer);
+    const auto most = std::ranges::max_element(formats, {}, rank);
     for (const auto& [extension, files] : formats) {
         if (extension == most->first)
             continue;
-        if (files.size() == most->second.size())
+        if (rank(std::pair(extension, files)) == rank(*most))
             throw Unavailable(folder.string() + " has as many frames in " + most->first +
                               " as in " + extension + ": keep one format");
         passed_over +=

@@ -59,10 +59,11 @@ std::vector<ObjectLine> object_table(const Json& table)
         const auto first = line.find("face_first");
         const bool has_first = first != line.end() && !first->is_null();
         const auto id = line.find("id");
+        if (id != line.end() && !id->is_number_integer())
+            throw Fault{"has an object whose id is no whole number, '" + name->get<std::string>() +
+                        "'"};
         objects.push_back({name->get<std::string>(),
-                           id != line.end() && id->is_number_integer()
-                               ? std::optional(id->get<std::int64_t>())
-                               : std::nullopt,
+                           id != line.end() ? std::optional(id->get<std::int64_t>()) : std::nullopt,
                            has_first ? std::optional(triangles("face_first")) : std::nullopt,
                            triangles("face_count")});
     }
@@ -94,6 +95,7 @@ void take_objects(Scene& scene, const std::vector<ObjectLine>& table)
         divide(scene, table);
         return;
     }
+    const bool has_ids = !scene.objects.empty() || !scene.object_ids.empty();
     if (scene.objects.empty())
         scene.objects.push_back({"all", 0, scene.triangle_count()});
     if (table.size() != scene.objects.size())
@@ -111,7 +113,7 @@ void take_objects(Scene& scene, const std::vector<ObjectLine>& table)
                         " triangles from " + std::to_string(said_first.value_or(first)) +
                         ", and the mesh has " + std::to_string(object.face_count) + " from " +
                         std::to_string(first)};
-        if (scene.objects.size() > 1 && said_id.value_or(id) != id)
+        if (has_ids && said_id.value_or(id) != id)
             throw Fault{"has an object, '" + name + "', of id " + std::to_string(*said_id) +
                         ", and the mesh has id " + std::to_string(id) + " in its place"};
         object.name = name;
@@ -128,6 +130,8 @@ void take(Scene& scene, const Json& json)
         scene.has_meshes = true;
     }
     if (const auto list = json.find("frame_labels"); list != json.end()) {
+        if (!list->is_array())
+            throw Fault{"has 'frame_labels' that are no list"};
         for (const Json& label : *list) {
             if (!label.is_string() && !label.is_number_integer())
                 throw Fault{"has a frame label that is neither text nor a whole number"};

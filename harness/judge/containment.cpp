@@ -102,7 +102,7 @@ bool encloses(const Aabb& outer, const Aabb& inner)
            outer.max_x >= inner.max_x && outer.max_y >= inner.max_y && outer.max_z >= inner.max_z;
 }
 
-/// Returns the pairs of objects that have a contact.
+/// Returns the pairs of objects that have a contact, or a vertex in common.
 std::set<std::pair<std::size_t, std::size_t>> touching_objects(const Scene& scene,
                                                                std::span<const Pair> contacts)
 {
@@ -113,6 +113,18 @@ std::set<std::pair<std::size_t, std::size_t>> touching_objects(const Scene& scen
             object_of[scene.file_faces.empty() ? face : scene.file_faces[face]] = object;
         }
     std::set<std::pair<std::size_t, std::size_t>> touching;
+    std::vector<std::pair<uint, std::size_t>> users;  // vertices, with the objects that name them
+    for (std::size_t object = 0; object < scene.objects.size(); ++object)
+        for (uint k = 0; k < scene.objects[object].face_count; ++k) {
+            const Face& face = scene.faces[scene.objects[object].first_face + k];
+            for (const uint corner : {face.a, face.b, face.c})
+                users.emplace_back(corner, object);
+        }
+    std::ranges::sort(users);
+    users.erase(std::unique(users.begin(), users.end()), users.end());
+    for (auto first = users.begin(); first != users.end(); ++first)
+        for (auto other = first + 1; other != users.end() && other->first == first->first; ++other)
+            touching.emplace(first->second, other->second);
     for (const Pair pair : contacts)
         touching.insert(std::minmax(object_of[pair.a], object_of[pair.b]));
     return touching;

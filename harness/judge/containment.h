@@ -21,7 +21,7 @@ struct Containment {
     std::size_t open_objects = 0;
 };
 
-/// Returns which objects lie wholly inside a closed object that they have no contact with. An object is closed if each of its edges
+/// Returns which objects lie wholly inside a closed object that they have no contact and no vertex in common with. An object is closed if each of its edges
 /// belongs to an even number of its triangles. `contacts` are all exact contacts between objects, numbered as in the file. Decides by
 /// whether a ray crosses the closed object's surface an odd number of times, exactly.
 Containment containment(const Scene& scene, std::size_t frame, std::span<const Pair> contacts);

@@ -68,6 +68,12 @@ std::array<FileNumber, 3> LineReader::point(std::string_view words, const char* 
 void LineReader::add_vertex(std::string_view words)
 {
     const auto [x, y, z] = point(words, "a vertex takes three numbers, and there is ");
+    std::string_view rest = words;
+    for (int k = 0; k < 3; ++k)
+        next_word(rest);
+    for (auto word = next_word(rest); !word.empty(); word = next_word(rest))  // colours, normals
+        if (!parse_number(word))
+            refuse("a vertex takes numbers, and there is " + in_quotes(words));
     file_.add_point(x, y, z);
 }
 

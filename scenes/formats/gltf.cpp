@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Meshes of a glTF file, placed by its nodes. Transforms are products in double precision, and each vertex is rounded once.
+// Meshes of a glTF file, placed by its nodes. Each vertex is rounded once.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "geometry/error.h"
 #include "scenes/formats/formats.h"
-#include "scenes/formats/gltf_file.h"
+#include "scenes/formats/gltf_nodes.h"
 
 namespace bvhbench {
 namespace {
@@ -26,45 +26,9 @@ constexpr std::string_view read_extensions[] = {"KHR_mesh_quantization",
                                                 "EXT_lights_",
                                                 "KHR_xmp"};
 
-/// If a mesh is this many times its size away from the origin, floats there lose as many of its digits.
-constexpr double far_away = 16;
-
-/// A transform: columns, the last of which is the translation.
-struct Matrix {
-    std::array<double, 16> at = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-    WidePoint operator*(const WidePoint& p) const
-    {
-        const auto row = [&](std::size_t k) {
-            return at[k] * p.x + at[4 + k] * p.y + at[8 + k] * p.z + at[12 + k];
-        };
-        return {row(0), row(1), row(2)};
-    }
-
-    Matrix operator*(const Matrix& right) const
-    {
-        Matrix product;
-        for (std::size_t column = 0; column < 4; ++column)
-            for (std::size_t row = 0; row < 4; ++row) {
-                double sum = 0;
-                for (std::size_t k = 0; k < 4; ++k)
-                    sum += at[4 * k + row] * right.at[4 * column + k];
-                product.at[4 * column + row] = sum;
-            }
-        return product;
-    }
-};
-
-/// Returns translation * rotation * scale; `r` is a unit quaternion x, y, z, w.
-Matrix placed(const double* t, const double* r, const double* s)
-{
-    const double x = r[0], y = r[1], z = r[2], w = r[3];
-    return {{s[0] * (1 - 2 * (y * y + z * z)), s[0] * 2 * (x * y + z * w),
-             s[0] * 2 * (x * z - y * w), 0, s[1] * 2 * (x * y - z * w),
-             s[1] * (1 - 2 * (x * x + z * z)), s[1] * 2 * (y * z + x * w), 0,
-             s[2] * 2 * (x * z + y * w), s[2] * 2 * (y * z - x * w),
-             s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1}};
-}
+/// A mesh is far away if it is so many times its size from the origin, or so many times its shortest edge, of which floats there hold
+/// eight bits.
+constexpr double far_from_size = 16, far_from_edge = 65536;
 
 FileNumber number(double x)
 {
@@ -77,14 +41,13 @@ FileNumber number(double x)
 class GltfReader {
 public:
     GltfReader(std::string_view bytes, const std::string& name, const ReadBeside& read_beside)
-        : gltf_(bytes, name, read_beside), nodes_(list(gltf_.json(), "nodes").size())
+        : gltf_(bytes, name, read_beside), nodes_(gltf_)
     {}
 
     FileMesh read()
     {
         check_extensions();
-        place_nodes();
-        for (const std::size_t node : in_scene())
+        for (const std::size_t node : nodes_.in_scene())
             add_node(node);
         list_rest();
         if (file_.objects.size() == 1)
@@ -93,127 +56,40 @@ public:
     }
 
 private:
-    struct Node {
-        Matrix local, world;
-        std::size_t parent = none;
-    };
-
-    /// Positions of an accessor, and the points that the current object has made of them.
+    /// What decides where a vertex is: the positions, and with them the morph targets and their weights.
     struct Positions {
         GltfNumbers at;
-        std::vector<uint> point;        ///< by element; unmade: no point yet
-        std::vector<std::size_t> made;  ///< elements that have a point
+        std::vector<std::pair<GltfNumbers, double>> moved;
     };
 
-    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    static constexpr uint unmade = 0xffffffffu;
+    /// A skin of a primitive: for each set of four, the joints of its vertices and their shares.
+    using Skin = std::vector<std::pair<GltfNumbers, GltfNumbers>>;
 
-    /// Returns the list called `key`; an empty one if there is none.
-    static const Json& list(const Json& of, const char* key)
+    /// Numbers of the accessors, and weights, that decide where vertices are.
+    using Key = std::vector<std::pair<std::size_t, double>>;
+
+    static bool is_read(const std::string& extension)
     {
-        static const Json empty = Json::array();
-        const auto found = of.find(key);
-        return found == of.end() || !found->is_array() ? empty : *found;
+        return std::ranges::any_of(read_extensions, [&](std::string_view known) {
+            return known.ends_with('_') || known == "KHR_xmp" ? extension.starts_with(known)
+                                                              : extension == known;
+        });
     }
 
-    /// Returns the object called `key`; an empty one if there is none.
-    static const Json& object(const Json& of, const char* key)
+    /// Refuses what is required and not read, and notes what is used and not read.
+    void check_extensions()
     {
-        static const Json empty = Json::object();
-        const auto found = of.find(key);
-        return found == of.end() || !found->is_object() ? empty : *found;
-    }
-
-    std::vector<std::size_t> indices(const Json& of, const char* key) const
-    {
-        std::vector<std::size_t> all;
-        for (const Json& index : list(of, key)) {
-            if (!index.is_number_unsigned())
-                gltf_.refuse("has a list '" + std::string(key) + "' of other than indices");
-            all.push_back(index.get<std::size_t>());
-        }
-        return all;
-    }
-
-    void check_extensions() const
-    {
-        for (const Json& required : list(gltf_.json(), "extensionsRequired")) {
-            const std::string name = required.is_string() ? required.get<std::string>() : "";
-            if (std::ranges::none_of(read_extensions, [&](std::string_view known) {
-                    return known.ends_with('_') || known == "KHR_xmp" ? name.starts_with(known)
-                                                                      : name == known;
-                }))
-                gltf_.refuse("requires " + in_quotes(name) +
-                             ", which is not read: export it without that extension");
-        }
-    }
-
-    /// Computes the transform of every node.
-    void place_nodes()
-    {
-        std::vector<std::size_t> order;
-        for (std::size_t k = 0; k < nodes_.size(); ++k) {
-            const Json& node = gltf_.item("nodes", k);
-            nodes_[k].local = local(node);
-            for (const std::size_t child : indices(node, "children")) {
-                if (child >= nodes_.size() || nodes_[child].parent != none || child == k)
-                    gltf_.refuse("has a node, " + std::to_string(child) + ", with two parents");
-                nodes_[child].parent = k;
+        for (const char* const key : {"extensionsRequired", "extensionsUsed"})
+            for (const Json& name : gltf_.list(gltf_.json(), key)) {
+                const std::string extension = name.is_string() ? name.get<std::string>() : "";
+                if (is_read(extension))
+                    continue;
+                if (key == std::string_view("extensionsRequired"))
+                    gltf_.refuse("requires " + in_quotes(extension) +
+                                 ", which is not read: export it without that extension");
+                file_.reading.surprises.push_back("it uses " + in_quotes(extension) +
+                                                  ", which is not read");
             }
-        }
-        for (std::size_t k = 0; k < nodes_.size(); ++k)
-            if (nodes_[k].parent == none)
-                order.push_back(k);
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            Node& node = nodes_[order[k]];
-            node.world = node.parent == none ? node.local : nodes_[node.parent].world * node.local;
-            for (const std::size_t child : indices(gltf_.item("nodes", order[k]), "children"))
-                order.push_back(child);
-        }
-        if (order.size() != nodes_.size())
-            gltf_.refuse("has nodes that are their own parents");
-    }
-
-    Matrix local(const Json& node) const
-    {
-        if (node.contains("matrix")) {
-            Matrix matrix;
-            std::ranges::copy(gltf_.numbers(node, "matrix", std::vector<double>(16)),
-                              matrix.at.begin());
-            return matrix;
-        }
-        return placed(gltf_.numbers(node, "translation", {0, 0, 0}).data(),
-                      gltf_.numbers(node, "rotation", {0, 0, 0, 1}).data(),
-                      gltf_.numbers(node, "scale", {1, 1, 1}).data());
-    }
-
-    /// Returns the nodes of the scene that the file shows, each behind its parent; without scenes, all nodes.
-    std::vector<std::size_t> in_scene() const
-    {
-        const std::size_t scenes = list(gltf_.json(), "scenes").size();
-        const std::size_t shown = gltf_.whole(gltf_.json(), "scene").value_or(0);
-        std::vector<std::size_t> order;
-        if (scenes == 0) {
-            for (std::size_t k = nodes_.size(); k-- > 0;)
-                if (nodes_[k].parent == none)
-                    order.push_back(k);
-        } else {
-            order = indices(gltf_.item("scenes", shown), "nodes");
-            std::ranges::reverse(order);
-        }
-        std::vector<std::size_t> nodes;
-        std::vector<bool> seen(nodes_.size());
-        while (!order.empty()) {  // a stack
-            const std::size_t node = order.back();
-            order.pop_back();
-            std::vector<std::size_t> children = indices(gltf_.item("nodes", node), "children");
-            if (seen[node])
-                gltf_.refuse("has a node, " + std::to_string(node) + ", twice in its scene");
-            seen[node] = true;
-            nodes.push_back(node);
-            order.insert(order.end(), children.rbegin(), children.rend());
-        }
-        return nodes;
     }
 
     void add_node(std::size_t index)
@@ -223,238 +99,216 @@ private:
         if (!mesh)
             return;
         const auto skin = gltf_.whole(node, "skin");
-        const std::vector<Matrix> joints = skin ? joints_of(*skin) : std::vector<Matrix>{};
+        const std::vector<GltfMatrix> joints =
+            skin ? nodes_.joints_of(*skin) : std::vector<GltfMatrix>{};
         const auto named = node.find("name");
         const std::string name =
             named != node.end() && named->is_string() ? named->get<std::string>() : "";
-        for (const Matrix& instance : instances(node, nodes_[index].world))
+        for (const GltfMatrix& instance : nodes_.instances_of(index))
             add_mesh(node, gltf_.item("meshes", *mesh), instance, joints, name);
     }
 
-    /// Returns where a node's mesh is: once, or as often as EXT_mesh_gpu_instancing says.
-    std::vector<Matrix> instances(const Json& node, const Matrix& world) const
-    {
-        const Json& extension = object(object(node, "extensions"), "EXT_mesh_gpu_instancing");
-        const Json& attributes = object(extension, "attributes");
-        if (attributes.empty())
-            return {world};
-        std::optional<std::size_t> count;
-        const auto all = [&](const char* key, std::size_t width) -> std::optional<GltfNumbers> {
-            const auto accessor = gltf_.whole(attributes, key);
-            if (!accessor)
-                return std::nullopt;
-            GltfNumbers numbers = gltf_.accessor(*accessor, width);
-            if (numbers.size() != count.value_or(numbers.size()))
-                gltf_.refuse("has instances with other numbers of TRANSLATION, ROTATION and SCALE");
-            count = numbers.size();
-            return numbers;
-        };
-        const auto t = all("TRANSLATION", 3), r = all("ROTATION", 4), s = all("SCALE", 3);
-        constexpr double still[] = {0, 0, 0, 1}, one[] = {1, 1, 1};
-        std::vector<Matrix> placed_at;
-        for (std::size_t k = 0; k < count.value_or(0); ++k)
-            placed_at.push_back(
-                world * placed(t ? (*t)[k] : still, r ? (*r)[k] : still, s ? (*s)[k] : one));
-        return placed_at;
-    }
-
-    /// Returns the transform of each joint of a skin, from the mesh's space to that of the scene.
-    std::vector<Matrix> joints_of(std::size_t index) const
-    {
-        const Json& skin = gltf_.item("skins", index);
-        const std::vector<std::size_t> nodes = indices(skin, "joints");
-        std::optional<GltfNumbers> inverse;
-        if (const auto accessor = gltf_.whole(skin, "inverseBindMatrices"))
-            inverse = gltf_.accessor(*accessor, 16);
-        if (inverse && inverse->size() < nodes.size())
-            gltf_.refuse("has a skin with fewer matrices than joints");
-        std::vector<Matrix> joints;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
-            gltf_.item("nodes", nodes[k]);
-            Matrix bind;
-            if (inverse)
-                std::copy_n((*inverse)[k], 16, bind.at.begin());
-            joints.push_back(nodes_[nodes[k]].world * bind);
-        }
-        return joints;
-    }
-
-    void add_mesh(const Json& node, const Json& mesh, const Matrix& world,
-                  const std::vector<Matrix>& joints, const std::string& name)
+    void add_mesh(const Json& node, const Json& mesh, const GltfMatrix& world,
+                  const std::vector<GltfMatrix>& joints, const std::string& name)
     {
         const std::size_t first_point = file_.mesh.points.size();
         const std::size_t first_face = file_.mesh.faces.size();
-        const std::size_t targets = list(mesh, "primitives").empty()
+        const std::size_t targets = gltf_.list(mesh, "primitives").empty()
                                         ? 0
-                                        : list(mesh["primitives"].front(), "targets").size();
+                                        : gltf_.list(mesh["primitives"].front(), "targets").size();
         const std::vector<double> weights = gltf_.numbers(
             node, "weights", gltf_.numbers(mesh, "weights", std::vector<double>(targets)));
-        for (const Json& primitive : list(mesh, "primitives"))
-            if (primitive.is_object())
-                add_primitive(primitive, weights, world, joints);
-        for (Positions* const positions : in_object_) {
-            for (const std::size_t element : positions->made)
-                positions->point[element] = unmade;
-            positions->made.clear();
-        }
-        in_object_.clear();
-        note_far_mesh(first_point);
+        std::map<Key, std::unordered_map<std::size_t, uint>> points;
+        for (const Json& primitive : gltf_.list(mesh, "primitives"))
+            add_primitive(primitive, weights, world, joints, points);
+        note_far_mesh(first_point, first_face);
         file_.add_object(name, first_face);
     }
 
+    /// Adds the triangles of a primitive. `points` has the points that the mesh's primitives made so far, by their elements.
     void add_primitive(const Json& primitive, const std::vector<double>& weights,
-                       const Matrix& world, const std::vector<Matrix>& joints)
+                       const GltfMatrix& world, const std::vector<GltfMatrix>& joints,
+                       std::map<Key, std::unordered_map<std::size_t, uint>>& points)
     {
         constexpr std::size_t triangles = 4, fan = 6;
+        if (!primitive.is_object())
+            gltf_.refuse("has a primitive that is no object");
         const std::size_t mode = gltf_.whole(primitive, "mode").value_or(triangles);
-        if (mode < triangles || mode > fan) {
+        if (mode < triangles) {
             ++(mode == 0 ? points_ : lines_);
             return;
         }
-        const Json& attributes = object(primitive, "attributes");
+        if (mode > fan)
+            gltf_.refuse("has a primitive of mode " + std::to_string(mode));
+        const Json& attributes = gltf_.object(primitive, "attributes");
         const auto accessor = gltf_.whole(attributes, "POSITION");
-        const Json& compressed = object(primitive, "extensions");
-        if (compressed.contains("KHR_draco_mesh_compression"))
+        if (!accessor)
+            gltf_.refuse("has a mesh without POSITION");
+        if (gltf_.object(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
+            !gltf_.item("accessors", *accessor).contains("bufferView"))
             gltf_.refuse(
                 "has a mesh in KHR_draco_mesh_compression, which is not read: export it "
                 "without that extension");
-        if (!accessor)
-            gltf_.refuse("has a mesh without POSITION");
-        Positions& positions = positions_of(primitive, *accessor, weights);
-        in_object_.push_back(&positions);
-        const std::vector<std::size_t> corners = corners_of(primitive, positions.at.size());
-        const bool is_skinned = !joints.empty() && attributes.contains("JOINTS_0");
-        std::vector<Matrix> skin;
-        if (is_skinned)
-            skin = skin_of(attributes, joints, corners, positions);
+        Key key = {{*accessor, 1}};
+        const Positions positions = positions_of(primitive, weights, key);
+        const Skin skin = joints.empty() ? Skin{} : skin_of(attributes, positions.at.size(), key);
+        std::unordered_map<std::size_t, uint>& made = points[key];
         const auto point = [&](std::size_t element) {
-            uint& made = positions.point[element];
-            if (made == unmade) {
-                if (file_.mesh.points.size() >= unmade)
+            const auto [known, is_new] =
+                made.try_emplace(element, static_cast<uint>(file_.mesh.points.size()));
+            if (is_new) {
+                if (file_.mesh.points.size() >= 0xffffffffu)
                     gltf_.refuse("has more than 2^32 vertices");
-                made = static_cast<uint>(file_.mesh.points.size());
-                positions.made.push_back(element);
-                const double* const p = positions.at[element];
-                const WidePoint at =
-                    (is_skinned ? skin[element] : world) * WidePoint{p[0], p[1], p[2]};
+                const GltfMatrix& transform = skin.empty() ? world : skinned(skin, element, joints);
+                const WidePoint at = transform * position(positions, element);
                 file_.add_point(number(at.x), number(at.y), number(at.z));
             }
-            return made;
+            return known->second;
         };
+        const Corners corners = corners_of(primitive, positions.at.size());
         const std::size_t step = mode == triangles ? 3 : 1;
         if (mode == triangles && corners.size() % 3 != 0)
             gltf_.refuse("has triangles with " + std::to_string(corners.size()) +
                          " corners, which are no multiple of three");
         for (std::size_t k = 0; k + 3 <= corners.size(); k += step) {
             // In a strip every other triangle is turned round.
-            const std::size_t a = mode == fan ? 0 : k;
             const std::size_t turned = mode == 5 && k % 2 == 1 ? 1 : 0;
-            const uint first = point(corners[a]);
-            const uint second = point(corners[k + 1 + turned]);
-            file_.mesh.faces.push_back({first, second, point(corners[k + 2 - turned])});
+            const uint first = point(corner(corners, mode == fan ? 0 : k));
+            const uint second = point(corner(corners, k + 1 + turned));
+            file_.mesh.faces.push_back({first, second, point(corner(corners, k + 2 - turned))});
         }
     }
 
-    /// Returns the positions of a primitive, with its morph targets added by their weights.
-    Positions& positions_of(const Json& primitive, std::size_t accessor,
-                            const std::vector<double>& weights)
+    Positions positions_of(const Json& primitive, const std::vector<double>& weights, Key& key)
     {
-        const Json& targets = list(primitive, "targets");
-        std::vector<std::pair<std::size_t, double>> key = {{accessor, 1}};
+        Positions positions{gltf_.accessor(key[0].first, 3), {}};
+        const Json& targets = gltf_.list(primitive, "targets");
         for (std::size_t k = 0; k < targets.size(); ++k) {
             const double weight = k < weights.size() ? weights[k] : 0;
-            const auto target =
-                targets[k].is_object() ? gltf_.whole(targets[k], "POSITION") : std::nullopt;
-            if (weight != 0 && target)
-                key.emplace_back(*target, weight);
-            morphs_ += weight == 0 ? 1 : 0;
-        }
-        const auto [entry, is_new] = positions_.try_emplace(key);
-        Positions& positions = entry->second;
-        if (!is_new)
-            return positions;
-        positions.at = gltf_.accessor(accessor, 3);
-        for (std::size_t k = 1; k < key.size(); ++k) {
-            const GltfNumbers moved = gltf_.accessor(key[k].first, 3);
-            if (moved.size() != positions.at.size())
+            const auto target = gltf_.whole(targets[k], "POSITION");
+            if (weight == 0 || !target) {
+                ++morphs_;
+                continue;
+            }
+            key.emplace_back(*target, weight);
+            positions.moved.emplace_back(gltf_.accessor(*target, 3), weight);
+            if (positions.moved.back().first.size() != positions.at.size())
                 gltf_.refuse("has a morph target of another number of vertices than its mesh");
-            for (std::size_t n = 0; n < moved.values.size(); ++n)
-                positions.at.values[n] += key[k].second * moved.values[n];
         }
-        positions.point.assign(positions.at.size(), unmade);
         return positions;
     }
 
-    std::vector<std::size_t> corners_of(const Json& primitive, std::size_t vertices) const
+    static WidePoint position(const Positions& positions, std::size_t element)
     {
-        std::vector<std::size_t> corners;
-        if (const auto accessor = gltf_.whole(primitive, "indices")) {
-            for (const double index : gltf_.accessor(*accessor, 1).values) {
-                if (!(index >= 0 && index < static_cast<double>(vertices)))
-                    gltf_.refuse("has a triangle with vertex " +
-                                 std::to_string(static_cast<std::int64_t>(index)) + " of " +
-                                 std::to_string(vertices));
-                corners.push_back(static_cast<std::size_t>(index));
-            }
-        } else {
-            for (std::size_t k = 0; k < vertices; ++k)
-                corners.push_back(k);
+        double at[3], by[3];
+        positions.at.read(element, at);
+        for (const auto& [moved, weight] : positions.moved) {
+            moved.read(element, by);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                at[axis] += weight * by[axis];
         }
-        return corners;
+        return {at[0], at[1], at[2]};
     }
 
-    /// Returns the transform of each vertex that a corner names: the sum of its joints' by their weights.
-    std::vector<Matrix> skin_of(const Json& attributes, const std::vector<Matrix>& joints,
-                                const std::vector<std::size_t>& corners,
-                                const Positions& positions) const
+    /// The corners of a primitive: elements of its accessor of indices, or all vertices in order.
+    struct Corners {
+        std::optional<GltfNumbers> indices;
+        std::size_t vertices = 0;
+
+        std::size_t size() const { return indices ? indices->size() : vertices; }
+    };
+
+    Corners corners_of(const Json& primitive, std::size_t vertices) const
     {
-        std::vector<Matrix> skin(positions.at.size(), Matrix{{}});
-        std::vector<bool> is_used(positions.at.size());
-        for (const std::size_t corner : corners)
-            is_used[corner] = true;
+        const auto accessor = gltf_.whole(primitive, "indices");
+        return {accessor ? std::optional(gltf_.indices(*accessor)) : std::nullopt, vertices};
+    }
+
+    std::size_t corner(const Corners& corners, std::size_t k) const
+    {
+        double index = static_cast<double>(k);
+        if (corners.indices)
+            corners.indices->read(k, &index);
+        if (index >= static_cast<double>(corners.vertices))
+            gltf_.refuse("has a triangle with vertex " +
+                         std::to_string(static_cast<std::uint64_t>(index)) + " of " +
+                         std::to_string(corners.vertices));
+        return static_cast<std::size_t>(index);
+    }
+
+    /// Returns the skin of a primitive; empty if it has none.
+    Skin skin_of(const Json& attributes, std::size_t vertices, Key& key) const
+    {
+        Skin skin;
         for (std::size_t set = 0;; ++set) {
             const auto joint = gltf_.whole(attributes, ("JOINTS_" + std::to_string(set)).c_str());
             const auto weight = gltf_.whole(attributes, ("WEIGHTS_" + std::to_string(set)).c_str());
-            if (!joint || !weight)
+            if (!joint && !weight)
                 return skin;
-            const GltfNumbers numbers = gltf_.accessor(*joint, 4);
-            const GltfNumbers shares = gltf_.accessor(*weight, 4);
-            if (numbers.size() != skin.size() || shares.size() != skin.size())
+            if (!joint || !weight)
+                gltf_.refuse("has a skin with joints or weights alone");
+            skin.emplace_back(gltf_.accessor(*joint, 4), gltf_.accessor(*weight, 4));
+            if (skin.back().first.size() != vertices || skin.back().second.size() != vertices)
                 gltf_.refuse("has a skin of another number of vertices than its mesh");
-            for (std::size_t k = 0; k < skin.size(); ++k)
-                for (std::size_t n = 0; n < 4 && is_used[k]; ++n) {
-                    const double at = numbers[k][n], share = shares[k][n];
-                    if (share == 0)
-                        continue;
-                    if (!(at >= 0 && at < static_cast<double>(joints.size())))
-                        gltf_.refuse("has a vertex of a joint that its skin lacks");
-                    for (std::size_t c = 0; c < 16; ++c)
-                        skin[k].at[c] += share * joints[static_cast<std::size_t>(at)].at[c];
-                }
+            key.emplace_back(*joint, -1);
+            key.emplace_back(*weight, -2);
         }
     }
 
-    /// Notes whether floats lose much of a mesh, because it is far from the origin.
-    void note_far_mesh(std::size_t first_point)
+    /// Returns the sum of the transforms of a vertex's joints by their weights.
+    GltfMatrix skinned(const Skin& skin, std::size_t element,
+                       const std::vector<GltfMatrix>& joints) const
     {
-        double farthest = 0, low[3], high[3];
-        std::fill_n(low, 3, std::numeric_limits<double>::infinity());
-        std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
+        constexpr double most_off = 0.05;  // weights of 8 bits are rounded
+        GltfMatrix sum{{}};
+        double whole = 0, at[4], shares[4];
+        for (const auto& [numbers, weights] : skin) {
+            numbers.read(element, at);
+            weights.read(element, shares);
+            for (std::size_t n = 0; n < 4; ++n) {
+                if (shares[n] == 0)
+                    continue;
+                if (!(at[n] >= 0 && at[n] < static_cast<double>(joints.size())))
+                    gltf_.refuse("has a vertex of a joint that its skin lacks");
+                whole += shares[n];
+                for (std::size_t c = 0; c < 16; ++c)
+                    sum.at[c] += shares[n] * joints[static_cast<std::size_t>(at[n])].at[c];
+            }
+        }
+        if (!(std::fabs(whole - 1) <= most_off))
+            gltf_.refuse("has a vertex, " + std::to_string(element) +
+                         ", whose joints have weights that do not add up to 1");
+        return sum;
+    }
+
+    /// Notes whether floats lose much of a mesh: if it is far from the origin for its size, or for its shortest edge.
+    void note_far_mesh(std::size_t first_point, std::size_t first_face)
+    {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        double farthest = 0, shortest = infinity;
+        WidePoint low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
         bool is_exact = true;
         for (std::size_t k = first_point; k < file_.wide.size(); ++k) {
             const WidePoint& p = file_.wide[k];
             const Point& rounded = file_.mesh.points[k];
-            const double at[] = {p.x, p.y, p.z};
             is_exact = is_exact && double{rounded.x} == p.x && double{rounded.y} == p.y &&
                        double{rounded.z} == p.z;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min(low[axis], at[axis]);
-                high[axis] = std::max(high[axis], at[axis]);
-                farthest = std::max(farthest, std::fabs(at[axis]));
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        }
+        if (is_exact)
+            return;
+        for (std::size_t k = first_face; k < file_.mesh.faces.size(); ++k) {
+            const Face& face = file_.mesh.faces[k];
+            for (const auto& [u, v] : {std::pair(face.a, face.b), std::pair(face.b, face.c)}) {
+                const WidePoint &p = file_.wide[u], &q = file_.wide[v];
+                const double length = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z);
+                shortest = length > 0 ? std::min(shortest, length) : shortest;
             }
         }
-        const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-        if (!is_exact && farthest > far_away * size)
+        const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+        if (farthest > far_from_size * size || farthest > far_from_edge * shortest)
             file_.floats_hold = false;
     }
 
@@ -466,20 +320,18 @@ private:
                 file_.reading.ignored.push_back(std::to_string(count) + ' ' + what);
         };
         const Json& json = gltf_.json();
-        add(list(json, "materials").size(), "materials");
-        add(list(json, "animations").size(), "animations");
+        add(gltf_.list(json, "materials").size(), "materials");
+        add(gltf_.list(json, "animations").size(), "animations");
         add(points_, "meshes of points");
         add(lines_, "meshes of lines");
         add(morphs_, "morph targets of weight 0");
-        if (const std::size_t scenes = list(json, "scenes").size(); scenes > 1)
+        if (const std::size_t scenes = gltf_.list(json, "scenes").size(); scenes > 1)
             add(scenes - 1, "other scenes");
     }
 
     GltfFile gltf_;
-    std::vector<Node> nodes_;
+    GltfNodes nodes_;
     FileMesh file_;
-    std::map<std::vector<std::pair<std::size_t, double>>, Positions> positions_;
-    std::vector<Positions*> in_object_;  ///< those with points of the current object
     std::size_t points_ = 0, lines_ = 0, morphs_ = 0;
 };
 

@@ -13,12 +13,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Elements that one accessor may have without bytes in the file, as those whose values are all zero.
-constexpr std::size_t most_without_bytes = std::size_t{1} << 24;
+/// Elements that an accessor may have without bytes, as those whose values are all zero: so many, or as many as the file has bytes.
+constexpr std::size_t few_without_bytes = 65536;
 
 /// A type of components. `most` is the value that stands for 1 where integers are normalized.
 struct Component {
-    int type;
+    std::size_t type;
     std::size_t bytes;
     double most;
     double (*value)(const char* bytes);
@@ -39,6 +39,12 @@ constexpr Component components[] = {
 
 constexpr std::pair<std::string_view, std::size_t> widths[] = {
     {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+
+bool is_normalized(const Json& accessor)
+{
+    const auto found = accessor.find("normalized");
+    return found != accessor.end() && *found == Json(true);
+}
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at)
 {
@@ -92,7 +98,7 @@ std::string decoded_uri(std::string_view uri)
 }  // namespace
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name, ReadBeside read_beside)
-    : name_(name), read_beside_(std::move(read_beside))
+    : name_(name), read_beside_(std::move(read_beside)), file_bytes_(bytes.size())
 {
     if (bytes.starts_with("glTF"))
         open_binary(bytes);
@@ -108,6 +114,8 @@ GltfFile::GltfFile(std::string_view bytes, const std::string& name, ReadBeside r
                                     : (*asset)["version"].get<std::string>();
     if (!version.starts_with("2."))
         refuse("is of glTF version " + in_quotes(version) + ", and version 2 is read");
+    if (const auto least = asset->find("minVersion"); least != asset->end() && *least != "2.0")
+        refuse("needs glTF version " + least->dump() + ", and 2.0 is read");
 }
 
 void GltfFile::refuse(const std::string& what) const { throw Unavailable(name_ + ' ' + what); }
@@ -209,12 +217,47 @@ const std::string& GltfFile::buffer(std::size_t index) const
     return buffers_.emplace(index, buffer_at(index)).first->second;
 }
 
-void GltfFile::decode(const Json& from, std::size_t view, int component_type, bool normalized,
-                      std::size_t width, std::size_t count, std::vector<double>& values) const
+const Json& GltfFile::list(const Json& of, const char* key) const
+{
+    static const Json empty = Json::array();
+    const auto found = of.find(key);
+    if (found == of.end())
+        return empty;
+    if (!found->is_array())
+        refuse("has '" + std::string(key) + "' that are no list");
+    return *found;
+}
+
+std::vector<std::size_t> GltfFile::index_list(const Json& of, const char* key) const
+{
+    std::vector<std::size_t> all;
+    for (const Json& index : list(of, key)) {
+        if (!index.is_number_unsigned())
+            refuse("has a list '" + std::string(key) + "' of other than indices");
+        all.push_back(index.get<std::size_t>());
+    }
+    return all;
+}
+
+const Json& GltfFile::object(const Json& of, const char* key) const
+{
+    static const Json empty = Json::object();
+    const auto found = of.find(key);
+    if (found == of.end())
+        return empty;
+    if (!found->is_object())
+        refuse("has '" + std::string(key) + "' that are no object");
+    return *found;
+}
+
+GltfNumbers::Stored GltfFile::stored(const Json& from, std::size_t view, std::size_t component_type,
+                                     bool normalized, std::size_t width, std::size_t count) const
 {
     const auto kind = std::ranges::find(components, component_type, &Component::type);
     if (kind == std::end(components))
         refuse("has an accessor of components of type " + std::to_string(component_type));
+    if (normalized && (kind->most == 1 || kind->bytes == 4))
+        refuse("has an accessor of normalized numbers that are no small integers");
     const Json& bytes_of = item("bufferViews", view);
     const std::string& bytes = buffer(whole(bytes_of, "buffer").value_or(0));
     const std::size_t begin = whole(bytes_of, "byteOffset").value_or(0);
@@ -227,12 +270,8 @@ void GltfFile::decode(const Json& from, std::size_t view, int component_type, bo
         (count > 0 && (length - offset < size || (length - offset - size) / stride < count - 1)))
         refuse("has an accessor that reaches beyond the end of its buffer view, " +
                std::to_string(view));
-    const char* at = bytes.data() + begin + offset;
-    for (std::size_t k = 0; k < count; ++k, at += stride)
-        for (std::size_t c = 0; c < width; ++c) {
-            const double value = kind->value(at + c * kind->bytes);
-            values.push_back(normalized ? std::max(value / kind->most, -1.0) : value);
-        }
+    return {bytes.data() + begin + offset, stride, kind->bytes, kind->value,
+            normalized ? kind->most : 0};
 }
 
 GltfNumbers GltfFile::accessor(std::size_t index, std::size_t width) const
@@ -245,43 +284,71 @@ GltfNumbers GltfFile::accessor(std::size_t index, std::size_t width) const
     if (known == std::end(widths) || known->second != width)
         refuse("has an accessor, " + std::to_string(index) + ", that is not of " +
                std::to_string(width) + (width == 1 ? " number" : " numbers") + " an element");
-    const std::size_t count = whole(json, "count").value_or(0);
-    const auto component_type = static_cast<int>(whole(json, "componentType").value_or(0) % 65536);
-    const auto found = json.find("normalized");
-    const bool normalized = found != json.end() && found->is_boolean() && found->get<bool>();
-    GltfNumbers numbers{width, {}};
+    const auto component_type = whole(json, "componentType").value_or(0);
+    GltfNumbers numbers;
+    numbers.width_ = width;
+    numbers.count_ = whole(json, "count").value_or(0);
     if (const auto view = whole(json, "bufferView"))
-        decode(json, *view, component_type, normalized, width, count, numbers.values);
-    else if (count > most_without_bytes)
-        refuse("has an accessor of " + std::to_string(count) + " elements without bytes");
-    numbers.values.resize(count * width);
-    if (const auto sparse = json.find("sparse"); sparse != json.end() && sparse->is_object()) {
-        const std::size_t changes = whole(*sparse, "count").value_or(0);
-        const Json none = Json::object();
-        const auto part = [&](const char* key) -> const Json& {
-            return sparse->contains(key) ? (*sparse)[key] : none;
-        };
-        std::vector<double> at, values;
-        const auto decode_part = [&](const char* key, int kind, bool normal, std::size_t wide,
-                                     std::vector<double>& to) {
-            const auto view = whole(part(key), "bufferView");
-            if (!view)
-                refuse("has a sparse accessor without " + std::string(key));
-            decode(part(key), *view, kind, normal, wide, changes, to);
-        };
-        decode_part("indices",
-                    static_cast<int>(whole(part("indices"), "componentType").value_or(0) % 65536),
-                    false, 1, at);
-        decode_part("values", component_type, normalized, width, values);
-        for (std::size_t k = 0; k < changes; ++k) {
-            if (!(at[k] >= 0 && at[k] < static_cast<double>(count)))
-                refuse("has a sparse accessor that changes an element beyond its end");
-            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(k * width), width,
-                        numbers.values.begin() +
-                            static_cast<std::ptrdiff_t>(static_cast<std::size_t>(at[k]) * width));
-        }
+        numbers.stored_ =
+            stored(json, *view, component_type, is_normalized(json), width, numbers.count_);
+    else if (numbers.count_ > std::max(few_without_bytes, file_bytes_))
+        refuse("has an accessor of " + std::to_string(numbers.count_) +
+               " elements without a buffer view, as files have that are compressed");
+    const Json& sparse = object(json, "sparse");
+    if (sparse.empty())
+        return numbers;
+    const std::size_t changes = whole(sparse, "count").value_or(0);
+    const auto part = [&](const char* key, std::size_t kind, bool normal, std::size_t wide) {
+        const Json& of = object(sparse, key);
+        const auto view = whole(of, "bufferView");
+        if (!view)
+            refuse("has a sparse accessor without " + std::string(key));
+        return stored(of, *view, kind, normal, wide, changes);
+    };
+    GltfNumbers places;
+    places.width_ = 1;
+    places.stored_ =
+        part("indices", whole(object(sparse, "indices"), "componentType").value_or(0), false, 1);
+    numbers.changed_ = part("values", component_type, is_normalized(json), width);
+    for (std::size_t k = 0; k < changes; ++k) {
+        double at = 0;
+        places.read(places.stored_, k, &at);
+        if (!(at >= 0 && at < static_cast<double>(numbers.count_)) ||
+            (k > 0 && at <= static_cast<double>(numbers.changes_.back())))
+            refuse("has a sparse accessor whose indices do not ascend, or are too large");
+        numbers.changes_.push_back(static_cast<std::size_t>(at));
     }
     return numbers;
+}
+
+GltfNumbers GltfFile::indices(std::size_t index) const
+{
+    const Json& json = item("accessors", index);
+    const std::size_t type = whole(json, "componentType").value_or(0);
+    if ((type != 5121 && type != 5123 && type != 5125) || is_normalized(json))
+        refuse("has an accessor of indices, " + std::to_string(index) +
+               ", that are not whole numbers from 0 on");
+    return accessor(index, 1);
+}
+
+void GltfNumbers::read(const Stored& from, std::size_t k, double* to) const
+{
+    for (std::size_t c = 0; c < width_; ++c) {
+        to[c] = from.bytes == nullptr
+                    ? 0
+                    : from.value(from.bytes + k * from.stride + c * from.component_bytes);
+        if (from.most > 0)
+            to[c] = std::max(to[c] / from.most, -1.0);
+    }
+}
+
+void GltfNumbers::read(std::size_t k, double* to) const
+{
+    const auto change = std::ranges::lower_bound(changes_, k);
+    if (change != changes_.end() && *change == k)
+        read(changed_, static_cast<std::size_t>(change - changes_.begin()), to);
+    else
+        read(stored_, k, to);
 }
 
 }  // namespace bvhbench

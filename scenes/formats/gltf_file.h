@@ -12,13 +12,31 @@
 
 namespace bvhbench {
 
-/// The numbers of an accessor, converted to doubles: integers that are "normalized" are divided by their largest value.
-struct GltfNumbers {
-    std::size_t width = 0;  ///< numbers per element: 3 for VEC3
-    std::vector<double> values;
+/// The elements of an accessor, converted to doubles when they are asked for: integers that are "normalized" are divided by their
+/// largest value.
+class GltfNumbers {
+public:
+    std::size_t size() const { return count_; }
 
-    std::size_t size() const { return values.size() / width; }
-    const double* operator[](std::size_t k) const { return values.data() + k * width; }
+    /// Writes the numbers of element `k` to `to`: as many as the accessor's type has.
+    void read(std::size_t k, double* to) const;
+
+private:
+    friend class GltfFile;
+
+    /// Elements in a buffer; `bytes` is null for zeros.
+    struct Stored {
+        const char* bytes = nullptr;
+        std::size_t stride = 0, component_bytes = 0;
+        double (*value)(const char* bytes) = nullptr;
+        double most = 0;  ///< the value that stands for 1; 0: numbers are not normalized
+    };
+
+    void read(const Stored& from, std::size_t k, double* to) const;
+
+    std::size_t width_ = 0, count_ = 0;
+    Stored stored_, changed_;
+    std::vector<std::size_t> changes_;  ///< elements that changed_ has instead, in ascending order
 };
 
 /// A glTF 2.0 file: its JSON and its buffers. Every function throws Unavailable, in one sentence that begins with the file's name, for
@@ -40,8 +58,18 @@ public:
     std::vector<double> numbers(const nlohmann::json& of, const char* key,
                                 std::vector<double> usual) const;
 
-    /// Decodes an accessor of elements of one of these widths: any component type, stride, sparse values.
+    /// Opens an accessor of `width` numbers an element: any component type, stride, sparse values. It is valid as long as this file.
     GltfNumbers accessor(std::size_t index, std::size_t width) const;
+
+    /// As accessor(), of whole numbers that are indices.
+    GltfNumbers indices(std::size_t index) const;
+
+    /// Returns the list or object called `key`; an empty one if there is none.
+    const nlohmann::json& list(const nlohmann::json& of, const char* key) const;
+    const nlohmann::json& object(const nlohmann::json& of, const char* key) const;
+
+    /// Returns the indices in the list called `key`; none if there is no such list.
+    std::vector<std::size_t> index_list(const nlohmann::json& of, const char* key) const;
 
     [[noreturn]] void refuse(const std::string& what) const;
 
@@ -50,15 +78,17 @@ private:
     std::string buffer_at(std::size_t index) const;
     const std::string& buffer(std::size_t index) const;
 
-    /// Adds `count` elements, from `view` on, to `values`.
-    void decode(const nlohmann::json& from, std::size_t view, int component_type, bool normalized,
-                std::size_t width, std::size_t count, std::vector<double>& values) const;
+    /// Finds `count` elements in a buffer view.
+    GltfNumbers::Stored stored(const nlohmann::json& from, std::size_t view,
+                               std::size_t component_type, bool normalized, std::size_t width,
+                               std::size_t count) const;
 
     std::string name_;
     ReadBeside read_beside_;
     nlohmann::json json_;
     std::string_view chunk_;  ///< the binary chunk of a .glb file
     bool has_chunk_ = false;
+    std::size_t file_bytes_;
     mutable std::map<std::size_t, std::string> buffers_;  ///< those that were read
 };
 

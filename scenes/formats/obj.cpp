@@ -47,7 +47,9 @@ private:
     {
         line = without_comment(line);
         std::string_view words = line;
-        const std::string_view keyword = next_word(words);
+        std::string_view keyword = next_word(words);
+        if (keyword.size() > 1 && keyword.ends_with('\\'))  // "f\" goes on in the next line
+            keyword.remove_suffix(1);
         std::string joined;
         if (std::ranges::find(continued, keyword) != continued.end()) {
             while (!line.empty() && line.back() == '\\') {

@@ -99,6 +99,9 @@ private:
                        std::to_string(file_.mesh.points.size()));
             corners_.push_back(static_cast<uint>(*index));
         }
+        for (auto word = next_word(words_); !word.empty(); word = next_word(words_))  // a colour
+            if (!parse_number(word))
+                refuse("a face takes numbers, and there is " + in_quotes(text));
         file_.add_polygon(corners_);
     }
 

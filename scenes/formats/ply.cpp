@@ -270,8 +270,10 @@ private:
         if (!property.type->is_integer)
             values_.refuse("its corners are not integers");
         const std::int64_t count = values_.integer(*property.count_type);
-        if (count < 3 && !are_strips)
-            values_.refuse("a face takes three corners, and there are " + std::to_string(count));
+        if (count < (are_strips ? 0 : 3))
+            values_.refuse(are_strips ? "a list of length " + std::to_string(count)
+                                      : "a face takes three corners, and there are " +
+                                            std::to_string(count));
         corners_.clear();
         for (std::int64_t k = 0; k < count; ++k) {
             const std::int64_t index = values_.integer(*property.type);
@@ -317,7 +319,7 @@ private:
 
 FileMesh read_ply(std::string_view bytes, const std::string& name)
 {
-    return PlyReader(bytes, name).read();
+    return PlyReader(without_mark(bytes, name), name).read();
 }
 
 }  // namespace bvhbench

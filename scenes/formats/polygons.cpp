@@ -16,7 +16,7 @@ namespace bvhbench {
 namespace {
 
 /// Cutting ears takes time in proportion to the square of the number of corners.
-constexpr std::size_t most_corners = 20000;
+constexpr std::size_t most_corners = 10000;
 
 struct Flat {
     double x = 0, y = 0;
@@ -113,10 +113,15 @@ private:
     bool is_ear(std::size_t k) const
     {
         const Flat a = flat_[before(k)], b = flat_[k], c = flat_[after(k)];
-        return area(a, b, c) > 0 && std::ranges::none_of(flat_, [&](Flat p) {
-                   return p != a && p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 &&
-                          area(c, a, p) >= 0;
-               });
+        if (!(area(a, b, c) > 0))
+            return false;
+        const Flat low = {std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+        const Flat high = {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+        return std::ranges::none_of(flat_, [&](Flat p) {
+            return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p != a &&
+                   p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 &&
+                   area(c, a, p) >= 0;
+        });
     }
 
     void cut(std::size_t k, Face* face)
@@ -124,7 +129,7 @@ private:
         *face = {corners_[before(k)], corners_[k], corners_[after(k)]};
         corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(k));
         flat_.erase(flat_.begin() + static_cast<std::ptrdiff_t>(k));
-        start_ = k;
+        start_ = before(k % corners_.size());  // cutting may have made an ear of the corner before
     }
 
     std::vector<uint> corners_;
@@ -161,7 +166,7 @@ void cut_polygons(FileMesh& file, const std::string& name)
         ++file.reading.polygons_concave;
         file.reading.polygons_crossing += polygon.cut_ears(faces) ? 0 : 1;
     }
-    file.reading.polygons_cut = file.polygons.size();
+    file.reading.polygons_cut += file.polygons.size();
     file.polygons.clear();
 }
 

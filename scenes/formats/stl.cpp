@@ -43,8 +43,8 @@ FileMesh read_binary(std::string_view bytes)
     return file;
 }
 
-/// Reads text, in upper or lower case. Solids, facets and their corners nest, and each is closed before the next begins. Loops may
-/// be left out.
+/// Reads text, in upper or lower case, several statements a line or one. Solids, facets and their corners nest, and each is closed
+/// before the next begins. Loops may be left out.
 class AsciiStl : LineReader {
 public:
     using LineReader::LineReader;
@@ -52,7 +52,8 @@ public:
     FileMesh read()
     {
         while (const auto line = lines_.next())
-            statement(*line);
+            for (std::string_view words = *line; statement(words);) {
+            }
         if (facet_line_ != 0)
             refuse("the file ends inside the facet of line " + std::to_string(facet_line_));
         if (solid_line_ != 0)
@@ -61,34 +62,68 @@ public:
     }
 
 private:
-    void statement(std::string_view words)
+    /// Reads the statement at the front of `words` and removes it. False at the end of the line.
+    bool statement(std::string_view& words)
     {
         const std::string keyword = lower_case(next_word(words));
         if (keyword == "solid") {
             expect_closed(facet_line_, "a solid begins", "facet");
             expect_closed(solid_line_, "a solid begins", "solid");
             solid_line_ = lines_.number();
-            solid_ = next_word(words);
+            solid_ = name(words);
             first_face_ = file_.mesh.faces.size();
         } else if (keyword == "endsolid") {
             expect_closed(facet_line_, "a solid ends", "facet");
             expect_open(solid_line_, "endsolid", "solid");
             solid_line_ = 0;
+            name(words);
             file_.add_object(solid_, first_face_);
         } else if (keyword == "facet") {
             expect_open(solid_line_, "a facet", "solid");
             expect_closed(facet_line_, "a facet begins", "facet");
             facet_line_ = lines_.number();
             facet_.clear();
+            normal(words);
         } else if (keyword == "vertex") {
             expect_open(facet_line_, "a vertex", "facet");
             vertex(words);
         } else if (keyword == "endfacet") {
             expect_open(facet_line_, "endfacet", "facet");
             close_facet();
-        } else if (!keyword.empty() && keyword != "outer" && keyword != "endloop") {
+        } else if (keyword == "outer") {
+            next_word(words);  // loop
+        } else if (!keyword.empty() && keyword != "endloop") {
             refuse("not a word of an ascii STL file: " + in_quotes(keyword));
         }
+        return !keyword.empty();
+    }
+
+    /// Removes the rest of a line, a solid's name, and returns its first word. Refuses a rest that holds facets.
+    std::string name(std::string_view& words) const
+    {
+        const std::string first(next_word(words));
+        std::string_view rest = words;
+        for (std::string word = lower_case(first); !word.empty();
+             word = lower_case(next_word(rest)))
+            if (word == "facet" || word == "vertex" || word == "endsolid")
+                refuse("the name of a solid goes to the end of its line, and there is " +
+                       in_quotes(words));
+        words = {};
+        return first;
+    }
+
+    /// Removes "normal" and its numbers, whatever they are; a facet may come without.
+    static void normal(std::string_view& words)
+    {
+        std::string_view rest = words;
+        if (lower_case(next_word(rest)) != "normal")
+            return;
+        for (int k = 0; k < 3; ++k) {
+            words = rest;
+            if (!parse_number(next_word(rest)))
+                return;
+        }
+        words = rest;
     }
 
     void expect_closed(std::size_t line, const std::string& what, const std::string& of) const
@@ -104,10 +139,12 @@ private:
             refuse(what + " stands outside of a " + of);
     }
 
-    void vertex(std::string_view words)
+    void vertex(std::string_view& words)
     {
         constexpr const char* what = "a facet takes three vertices of three numbers, and there is ";
         facet_.push_back(point(words, what));
+        for (int k = 0; k < 3; ++k)
+            next_word(words);
         if (facet_.size() > 3)
             refuse(what + in_quotes(words));
     }
@@ -141,9 +178,13 @@ FileMesh read_stl(std::string_view bytes, const std::string& name)
     if (has_header && bytes.size() == expected)
         return read_binary(bytes);
     const std::string_view text = without_mark(bytes, name);
-    std::string_view words = text.substr(0, 1000);
-    if (lower_case(next_word(words)) == "solid" && !looks_binary(bytes))
+    std::string_view words = text;
+    const std::string_view first = next_word(words);
+    if (lower_case(first) == "solid" && !looks_binary(bytes))
         return AsciiStl(text, name).read();
+    if (!bytes.empty() && !looks_binary(bytes))
+        throw Unavailable(name + " is text, and an ascii STL file begins with solid, not with " +
+                          in_quotes(first));
     if (!has_header)
         throw Unavailable(name + " is neither an ascii nor a binary STL file");
     throw Unavailable(name + " says " + std::to_string(facet_count(bytes)) +

@@ -79,6 +79,11 @@ def test_objects_inside_others_are_named() -> None:
     told = expect(0, *QUERY, "--scene", "open.obj", "--narrow", "exact", "--containment")
     assert "no object lies wholly inside" in told and "1 of its objects are not closed" in told, told
     expect(2, *QUERY, "--scene", "open.obj", "--containment", says="--containment needs all exact contacts")
+    # A cube in the corner of another one, outside of it, that has one of its vertices: no contact, and no inside.
+    text = boxes(("outer", 0, 2), ("inner", -1, 0)).replace(f"f {8 + 8} ", "f 1 ").replace(f" {8 + 8}", " 1")
+    pathlib.Path("corner.obj").write_text(text)
+    told = expect(0, *QUERY, "--scene", "corner.obj", "--narrow", "exact", "--containment")
+    assert "no object lies wholly inside" in told, told
 
 
 def test_frames_may_have_other_triangles_where_trees_are_rebuilt() -> None:

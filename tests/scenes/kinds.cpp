@@ -512,16 +512,27 @@ std::string dae(const Model& model, Chance& chance)
     for (std::size_t k = 0; k < model.parts.size(); ++k) {
         const Model::Part& part = model.parts[k];
         const std::string id = "g" + std::to_string(k);
-        std::string values, corners, counts;
+        std::string values, lists;
         for (const auto& point : part.points)
             for (const double x : point)
                 values += text_of(x) + ' ';
-        for (const auto& face : part.faces) {
-            for (const unsigned corner : face)
-                corners += std::to_string(corner) + ' ';
-            counts += "3 ";
+        // The faces in one list or in two, as those of two materials are.
+        const std::size_t all = part.faces.size(), first = below(chance, 2) == 1 ? all / 2 : all;
+        for (const auto& [begin, end] : {std::pair(std::size_t{0}, first), std::pair(first, all)}) {
+            if (begin == end)
+                continue;
+            std::string corners, counts;
+            for (std::size_t face = begin; face < end; ++face) {
+                for (const unsigned corner : part.faces[face])
+                    corners += std::to_string(corner) + ' ';
+                counts += "3 ";
+            }
+            const std::string list = one_of(chance, "triangles", "polylist");
+            lists += '<' + list + " count=\"" + std::to_string(end - begin) +
+                     "\"><input semantic=\"VERTEX\" source=\"#" + id + "v\" offset=\"0\"/>" +
+                     (list == "polylist" ? "<vcount>" + counts + "</vcount>" : "") + "<p>" +
+                     corners + "</p></" + list + '>';
         }
-        const std::string list = one_of(chance, "triangles", "polylist");
         geometries +=
             "<geometry id=\"" + id + "\"><mesh><source id=\"" + id + "p\"><float_array id=\"" + id +
             "a\" count=\"" + std::to_string(3 * part.points.size()) + "\">" + values +
@@ -530,11 +541,8 @@ std::string dae(const Model& model, Chance& chance)
             "\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"
             "<param name=\"Z\" type=\"float\"/></accessor></technique_common></source><vertices "
             "id=\"" +
-            id + "v\"><input semantic=\"POSITION\" source=\"#" + id + "p\"/></vertices><" + list +
-            " count=\"" + std::to_string(part.faces.size()) +
-            "\"><input semantic=\"VERTEX\" source=\"#" + id + "v\" offset=\"0\"/>" +
-            (list == "polylist" ? "<vcount>" + counts + "</vcount>" : "") + "<p>" + corners +
-            "</p></" + list + "></mesh></geometry>";
+            id + "v\"><input semantic=\"POSITION\" source=\"#" + id + "p\"/></vertices>" + lists +
+            "</mesh></geometry>";
         nodes += "<node id=\"n" + id + "\"><instance_geometry url=\"#" + id + "\"/></node>";
     }
     return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "

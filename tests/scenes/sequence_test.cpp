@@ -201,15 +201,18 @@ TEST(Sequence, PassesOverFilesOfAnotherFormat)
     const Folder folder;
     const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     folder.file("scan_1.obj", text);
-    folder.file("meta_3.xml", "<xml/>");
-    EXPECT_TRUE(contains(refusal(folder.path().string()), "has as many frames in .obj as in .xml"));
+    folder.file("scan_1.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_TRUE(contains(refusal(folder.path().string()), "has as many frames in .obj as in .off"));
+    std::filesystem::remove(folder.path() / "scan_1.off");
+    for (const char* other : {"meta_3.xml", "meta_4.xml", "meta_5.xml", ".scan_7.obj"})
+        folder.file(other, "<xml/>");
     folder.file("scan_2.obj", text);
     std::string told;
     SceneLibrary library;
     library.tell = [&](const std::string& line) { told = line; };
     EXPECT_EQ(load_scene(folder.path().string(), library).frames.size(), 2u);
     EXPECT_TRUE(
-        contains(told, "its frames are the 2 files in .obj, and 1 in .xml are passed over"));
+        contains(told, "its frames are the 2 files in .obj, and 3 in .xml are passed over"));
 }
 
 TEST(Sequence, IsNotAnyFolder)
