@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "collide/device_lists.h"
 #include "collide/parameters.h"
 
 namespace bvhbench {

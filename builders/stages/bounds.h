@@ -26,7 +26,7 @@ public:
     /// scratch. With `of_all`, the stage also computes the bounds of all objects together.
     void plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool of_all = false);
 
-    /// Takes the buffers for one object.
+    /// Takes the buffers for one object, or for all triangles of several as if they were one.
     void plan(Arena& arena, std::size_t primitives, Use boxes);
 
     /// Uploads the constant inputs of `enqueue`. Blocks until done.
@@ -39,7 +39,7 @@ public:
     void enqueue(const Input& input, const ObjectRuns& chosen, Queue& queue);
 
     const Buffer<Aabb>& boxes() const { return boxes_; }      ///< One per triangle, in mesh order.
-    const Buffer<Bounds>& bounds() const { return bounds_; }  ///< One per object.
+    const Buffer<Bounds>& bounds() const { return bounds_; }  ///< One per planned object.
     /// Bounds of all objects together, each as of its last reordering. With several objects, only if planned.
     const Buffer<Bounds>& bounds_of_all() const { return is_forest() ? bounds_of_all_ : bounds_; }
 

@@ -86,7 +86,8 @@ PoclCache::PoclCache()
         share(folder);
     const fs::path& used = temporary_.empty() ? folder : temporary_;
     setenv("POCL_CACHE_DIR", used.c_str(), 1);  // replaces an empty one, on which PoCL aborts
-    watchdog::kernels_are_in(used);
+    if (temporary_.empty())
+        watchdog::kernels_are_in(used);
 }
 
 PoclCache::~PoclCache()

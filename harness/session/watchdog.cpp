@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/watchdog.h"
 
+#include <dlfcn.h>
+#include <execinfo.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -30,6 +33,7 @@ struct Told {
     std::array<char, 64> cell = {};
     std::array<char, 256> run = {};
     std::array<char, 4096> kernels = {};
+    bool ends_itself = false;  ///< whether abort was called by this program's own code
 };
 static_assert(std::atomic<long>::is_always_lock_free);
 
@@ -53,6 +57,39 @@ long now_ms()
     return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
+void* base_of(void* address)
+{
+    Dl_info object{};
+    return dladdr(address, &object) != 0 ? object.dli_fbase : nullptr;
+}
+
+/// Handles SIGABRT: notes whether the caller of abort, the first frame beyond the C library's, is in this program or in a library
+/// such as the OpenCL driver.
+void note_who_aborts(int)
+{
+    std::array<void*, 64> frames{};
+    const auto end = frames.begin() + backtrace(frames.data(), static_cast<int>(frames.size()));
+    static void* const c_library = base_of(dlsym(RTLD_DEFAULT, "gnu_get_libc_version"));
+    const auto is_c = [](void* frame) { return base_of(frame) == c_library; };
+    const auto caller = std::find_if_not(std::find_if(frames.begin(), end, is_c), end, is_c);
+    told->ends_itself =
+        caller != end && base_of(*caller) == base_of(reinterpret_cast<void*>(&note_who_aborts));
+}
+
+/// Returns how damaged kernels or too little address space can be why a process crashed by `signal`; empty if they cannot.
+std::string possible_cause(int signal)
+{
+    if (signal == SIGABRT && told->ends_itself)
+        return {};
+    rlimit space{};
+    if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
+        return "; the limit of address space (ulimit -v) can be why: raise it";
+    if (told->kernels[0] == '\0')
+        return {};
+    return std::string("; damaged kernels in the OpenCL driver's cache can be why: remove ") +
+           told->kernels.data();
+}
+
 struct Ending {
     int status = 0;     ///< of waitpid
     int signal = 0;     ///< signal passed on to the child; 0: none
@@ -72,9 +109,8 @@ struct Ending {
             text << "took longer than " << limit_ms / 1000
                  << " s and was ended; --time-limit gives a build or query more";
         else
-            text << "crashed (signal " << WTERMSIG(status)
-                 << "); damaged kernels in the OpenCL driver's cache can be why"
-                 << (told->kernels[0] != '\0' ? ": remove " : "") << told->kernels.data();
+            text << "crashed (signal " << WTERMSIG(status) << ')'
+                 << possible_cause(WTERMSIG(status));
         return text.str();
     }
 };
@@ -108,6 +144,7 @@ void begin_child(pid_t parent)
         _exit(128 + SIGKILL);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
+    std::signal(SIGABRT, note_who_aborts);
     end_on_signals();
 }
 

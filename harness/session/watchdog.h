@@ -31,7 +31,8 @@ std::string given_up(const std::string& cell);
 /// Names the run that the next child continues after a crash, from the result file with its finished cells.
 void go_on_with(const std::string& run_id);
 
-/// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it.
+/// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it, unless the program's own
+/// code called abort, as a failed assertion does, or the address space is limited, which is then named instead.
 void kernels_are_in(const std::string& folder);
 
 /// Marks the work during its lifetime as done for `cell`.
