@@ -65,7 +65,7 @@ def sentence_of(document: dict[str, Any]) -> str:
 def warnings_of(document: dict[str, Any]) -> list[str]:
     run = document["run"]
     program = run["program"]
-    told = [(program["dirty"], "The program had changes that are in no commit."),
+    told = [(results.is_dirty(program), f"The program was one {results.changes_text(program)}."),
             (program["build_type"] != "Release", f"The program was a {program['build_type']} build: its times are not those of a release."),
             ("finished_at" not in run, "The run has no end: it was stopped, or goes on. What is missing was not measured."),
             (run["device"]["kind"] == "cpu", "Kernels ran on a processor: times say nothing about a GPU.")]

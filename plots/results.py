@@ -111,6 +111,20 @@ class Run:
                 f"commit {program['commit'][:10]}{state}{build}{each}")
 
 
+def is_dirty(program: dict[str, Any]) -> bool:
+    """True if no commit has the program. Older files may say that one of unknown commit has no changes."""
+    return program["dirty"] or program["commit"] == "unknown"
+
+
+def changes_text(program: dict[str, Any]) -> str:
+    """Returns why a program is dirty, with up to three of the changed files that newer result files name."""
+    if program["commit"] == "unknown":
+        return "of unknown commit"
+    files = program.get("changed_files", [])
+    told = ", ".join(files[:3]) + (f" and {len(files) - 3} more" if len(files) > 3 else "")
+    return "with changes that no commit has" + (f" ({told})" if told else "")
+
+
 def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
     """Returns the costs of an inner node and a triangle. Files before format 1.2 have the default costs."""
     costs = facts.get("node_costs", {})

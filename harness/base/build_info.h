@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 namespace bvhbench {
 
 /// Version, commit and compiler that this program was built with. cmake/BuildInfo.cmake fills it in at build time.
 struct BuildInfo {
     const char* version;
-    const char* commit;  ///< "unknown" when built outside a repository
-    bool dirty;          ///< whether files differed from the commit, untracked ones included
+    const char*
+        commit;  ///< "unknown" when built outside the project's own repository and its archives
+    bool dirty;  ///< whether the commit is unknown, or files that the build reads differed from it
+    std::vector<const char*> changed_files;  ///< these files, new ones too
     const char* compiler;
     const char* build_type;
     const char* arch;         ///< value of -march

@@ -140,6 +140,8 @@ Json run_facts(const Device& device, std::vector<std::string> command, const Nod
                       {"dirty", build_info.dirty},         {"build_type", build_info.build_type},
                       {"compiler", build_info.compiler},   {"arch", build_info.arch},
                       {"kernels", device.sources.origin()}};
+    if (!build_info.changed_files.empty())
+        run["program"]["changed_files"] = build_info.changed_files;
     run["host"] = {{"name", system.nodename},
                    {"cpu", processor()},
                    {"threads", threads},

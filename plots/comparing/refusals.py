@@ -52,8 +52,9 @@ def require_file(name: pathlib.Path, document: dict[str, Any], rules: Rules) -> 
 
 
 def require_run(name: pathlib.Path, run: dict[str, Any], rules: Rules) -> None:
-    if run["program"]["dirty"] and not rules.allow_dirty:
-        raise WrongUsage(f"{name} was made by a program with changes that no commit has, so nobody can say what was compared; "
+    program = run["program"]
+    if results.is_dirty(program) and not rules.allow_dirty:
+        raise WrongUsage(f"{name} was made by a program {results.changes_text(program)}, so nobody can say what was compared; "
                          "--allow-dirty compares it all the same")
     for hook, value in sorted(run.get("test_hooks", {}).items()):
         if not rules.allow_test_hooks:

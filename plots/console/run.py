@@ -6,8 +6,9 @@ from tables import counted, duration
 def text(run: results.Run) -> str:
     facts = run.facts
     device, program, memory, tuning = facts["device"], facts["program"], facts.get("host_memory"), facts.get("tuning", {})
+    changes = " " + results.changes_text(program) if program["dirty"] and program["commit"] != "unknown" else ""
     lines = [f"device: {device['platform']}/{device['name']}, driver {device['driver']}",
-             f"program: {program['version']}, commit {program['commit']}{' with changes' if program['dirty'] else ''}, "
+             f"program: {program['version']}, commit {program['commit']}{changes}, "
              f"{program['build_type']}"]
     lines += [f"warning: {warning}" for warning in facts.get("conditions", {}).get("warnings", [])]
     lines += [f"NO RESULT: made under the test hook {hook}={value}" for hook, value in facts.get("test_hooks", {}).items()]

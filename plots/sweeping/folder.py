@@ -17,6 +17,7 @@ import command
 import documents
 import file_lock
 import output
+import results
 import tables
 from json_files import Refused, value_of
 from output import WrongUsage
@@ -31,7 +32,7 @@ def program_words(facts: dict[str, Any]) -> str:
     """Returns words that identify the program. With uncommitted changes they include a hash of its file."""
     program = facts["program"]
     words = f"commit {program['commit'][:10]}"
-    if program["dirty"] or program["commit"] == "unknown":
+    if results.is_dirty(program):
         words += f" with changes ({hashlib.sha256(pathlib.Path(command.PROGRAM).read_bytes()).hexdigest()[:16]})"
     kernels = "" if program["kernels"] == "embedded" else f", kernels of {program['kernels']}"
     return f"{words}, {program['version']} {program['build_type']} {program['compiler']} {program['arch']}{kernels}"

@@ -16,6 +16,9 @@ NOBODY = 65534
 def checkout(name: str, built: bool = True) -> pathlib.Path:
     root = pathlib.Path(name).resolve()
     (root / "harness").mkdir(parents=True)
+    (root / "cmake").mkdir()
+    shutil.copy(SOURCE / "cmake/inputs.regex", root / "cmake")
+    os.utime(root / "cmake/inputs.regex", (0, 0))
     shutil.copy(LAUNCHER, root)
     (root / "packages.txt").write_text("")
     (root / "harness" / "main.cpp").write_text("")
@@ -56,6 +59,7 @@ def test_who_may_not_write_runs_what_is_built():
     os.utime(root / "build/built", (1, 1))
     refused(call(root, "list"), f"what is built in {root} is not up to date, and this user may not write there")
     os.utime(source, (0, 0))
+    (root / "best.json").write_text("")  # newer, but no build reads it
     os.utime(root / "bvhbench", (2, 2))
     assert call(root, "list").returncode == 0
     refused(call(root, "test"), f"tests write into {root}/build, where this user may not")

@@ -42,7 +42,7 @@ def cell(builder: str = "karras", median_ns: float = 1e6, seed: int = 1, noise: 
 def document(*cells: Raw, name: str = "run") -> Raw:
     return {"format": "1.9", "cells": list(cells), "run": {
         "id": name, "finished_at": "then",
-        "program": {"dirty": False, "compiler": "gcc", "build_type": "Release", "arch": "native", "kernels": "embedded"},
+        "program": {"commit": "c0", "dirty": False, "compiler": "gcc", "build_type": "Release", "arch": "native", "kernels": "embedded"},
         "host": {"name": "host", "cpu": "cpu", "threads": 8, "os": "Linux"},
         "device": {"name": "device", "platform": "platform", "compute_units": 4, "driver": "1"}}}
 
@@ -412,7 +412,10 @@ class Refusals(unittest.TestCase):
     def test_say_what_cannot_be_compared(self) -> None:
         hooks = {"BVHBENCH_SLOW": "karras:2"}
         for change, says, rules in (
-                (lambda raw: raw["run"]["program"].update(dirty=True), "b was made by a program with", {"allow_dirty": True}),
+                (lambda raw: raw["run"]["program"].update(dirty=True, changed_files=["a.h", "b.h", "c.h", "d.h"]),
+                 "b was made by a program with changes that no commit has (a.h, b.h, c.h and 1 more)", {"allow_dirty": True}),
+                (lambda raw: raw["run"]["program"].update(commit="unknown"), "b was made by a program of unknown commit",
+                 {"allow_dirty": True}),
                 (lambda raw: raw["run"].update(test_hooks=hooks), "under BVHBENCH_SLOW=karras:2", {"allow_test_hooks": True}),
                 (lambda raw: raw["cells"].clear(), "no cells", None),
                 (lambda raw: raw.update(format="1.3"), "a has format 1.9 and b 1.3", None),
