@@ -13,12 +13,13 @@
 namespace bvhbench {
 namespace {
 
-/// Waits for the queue and returns what its launches took since the last call.
+/// Waits for the queue and returns what its launches took since the last call. Throws BadClock.
 std::int64_t device_ns(Queue& queue)
 {
     std::int64_t sum = 0;
     for (const StageTime& stage : queue.finish())
         sum += stage.elapsed_ns();
+    queue.check_times();
     return sum;
 }
 

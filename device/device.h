@@ -52,6 +52,9 @@ struct Device {
         return std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
     }
 
+    /// True if queues take the host's clock, because the device's is wrong: each stage then waits for the one before.
+    bool host_clock = false;
+
     /// Bytes taken, shared by all copies of this Device.
     std::shared_ptr<std::size_t> taken = std::make_shared<std::size_t>(0);
 

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "device/device.h"
+#include "geometry/error.h"
 
 namespace bvhbench {
 
-/// Times and traffic of one stage of a build or a query. All times but `wall_ns` are from the device clock.
+/// Times and traffic of one stage of a build or a query. All times but `wall_ns` are from the device clock, or from the host's if
+/// Device::host_clock is set.
 struct StageTime {
     std::string stage;
     std::int64_t busy_ns = 0;       ///< sum of the launches' run times
@@ -27,6 +29,13 @@ struct StageTime {
 
     /// Returns the duration to report: the span on the device or, for a host stage, the wall time.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }
+};
+
+/// Times that the device's clock, or the host's, tells cannot be true.
+class BadClock : public Unavailable {
+public:
+    BadClock(bool is_device, const std::string& what) : Unavailable(what), of_device(is_device) {}
+    bool of_device;
 };
 
 /// A command queue that runs its commands in order and records them by stage. Builders name stages and launch kernels; they
@@ -46,7 +55,7 @@ public:
     /// Makes all later commands run after those that were enqueued in `other` before. Does not wait.
     void run_after(const Queue& other);
 
-    /// True if `finish` reads the device clock; if false, durations are 0.
+    /// True if `finish` has durations; if false, they are 0.
     bool has_times() const { return has_times_; }
 
     /// Discards the stages recorded since the last `finish`. Does not wait.
@@ -81,8 +90,13 @@ public:
     /// from the end of those that were added before.
     void add(std::vector<StageTime> stages, std::int64_t wall_ns);
 
-    /// Waits for the queue, and returns and discards the stages recorded since the last call.
+    /// Waits for the queue, and returns and discards the stages recorded since the last call. If their times cannot be true, all are
+    /// 0, and check_times() throws.
     std::vector<StageTime> finish();
+
+    /// Throws BadClock if times of a finish() since the last call cannot be true. Launches must end no earlier than they begin, run
+    /// in order, and take no longer than the host's clock says; and that clock must not go back.
+    void check_times();
 
     /// Returns the time on the host's clock, in nanoseconds, of the stages that the last finish() returned: from the beginning of
     /// the first to the end of finish(), and the calls of those that were added.
@@ -96,13 +110,20 @@ private:
         cl::Event event;
     };
     cl::Event* record(std::int64_t moved_bytes);
+    void end_stage();
+    void read_times();
 
     cl::CommandQueue queue_;
     bool has_times_ = true;
     bool is_in_order_ = true;
+    bool by_host_ = false;            ///< whether stages are timed by the host's clock
+    std::int64_t resolution_ns_ = 0;  ///< of the device's clock
+    std::optional<BadClock> fault_;
     std::vector<StageTime> stages_;
     std::vector<Launch> launches_;
     std::optional<std::chrono::steady_clock::time_point> begun_;  ///< when the first stage began
+    std::optional<std::chrono::steady_clock::time_point>
+        stage_begun_;  ///< when the last stage began, unless it has ended
     std::int64_t added_wall_ns_ = 0, wall_ns_ = 0;
 };
 

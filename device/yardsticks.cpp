@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 namespace bvhbench {
@@ -45,6 +46,42 @@ Arena scratch_of(const Device& device, std::size_t bytes)
     return Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = bytes});
 }
 
+/// Copies one buffer to another by a kernel.
+class Copy {
+public:
+    /// Writes the source, since memory never written may not be backed by pages yet.
+    Copy(Programs& programs, Queue& queue, std::size_t count)
+        : global_(count)
+        , local_(256)
+        , arena_(scratch_of(programs.device(), 2 * count * sizeof(cl_uint4)))
+        , from_(arena_.take<cl_uint4>(count, Use::scratch))
+        , to_(arena_.take<cl_uint4>(count, Use::scratch))
+    {
+        const bool is_cpu = programs.device().is_cpu();
+        if (is_cpu) {
+            global_ = 4 * compute_units(programs.device());
+            local_ = 1;
+        }
+        kernel_ = programs.kernel(kernels, is_cpu ? "copy_runs" : "copy_strided");
+        set_arguments(kernel_, from_, to_, static_cast<cl_uint>(count));
+        queue.begin("clear");
+        queue.clear(from_.cl(), from_.bytes());
+    }
+
+    void launch(Queue& queue) const
+    {
+        queue.launch(kernel_, global_, local_, static_cast<std::int64_t>(2 * bytes()));
+    }
+
+    std::size_t bytes() const { return from_.bytes(); }
+
+private:
+    std::size_t global_, local_;
+    Arena arena_;
+    Buffer<cl_uint4> from_, to_;
+    cl::Kernel kernel_;
+};
+
 }  // namespace
 
 CopyRate measure_copy_rate(Programs& programs, Queue& queue, std::size_t most_bytes)
@@ -57,32 +94,40 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue, std::size_t most_by
     const std::size_t enough = device.is_cpu()
                                    ? vectors_past_caches(device, 1, std::size_t{512} << 20)
                                    : (std::size_t{1} << 30) / sizeof(cl_uint4);
-    const std::size_t count = std::min(enough, most_bytes / sizeof(cl_uint4));
-    const std::size_t bytes = count * sizeof(cl_uint4);
-    const std::size_t global = device.is_cpu() ? 4 * compute_units(device) : count;
-    const std::size_t local = device.is_cpu() ? 1 : 256;
-
-    Arena arena = scratch_of(device, 2 * bytes);
-    const Buffer<cl_uint4> from = arena.take<cl_uint4>(count, Use::scratch);
-    const Buffer<cl_uint4> to = arena.take<cl_uint4>(count, Use::scratch);
-    cl::Kernel copy = programs.kernel(kernels, device.is_cpu() ? "copy_runs" : "copy_strided");
-    set_arguments(copy, from, to, static_cast<cl_uint>(count));
-
+    const Copy copy(programs, queue, std::min(enough, most_bytes / sizeof(cl_uint4)));
     const auto copied_ns = [&] {
         queue.begin("copy");
-        queue.launch(copy, global, local, static_cast<std::int64_t>(2 * bytes));
+        copy.launch(queue);
         return queue.finish().back().busy_ns;
     };
-    queue.begin("clear");
-    queue.clear(from.cl(), from.bytes());  // memory never written may not be backed by pages yet
-    copied_ns();                           // a warm-up, and the first to touch `to`
+    copied_ns();  // a warm-up, and the first to touch `to`
     std::vector<std::int64_t> times;
     for (std::int64_t all = 0;
          times.size() < fewest_samples || (times.size() < most_samples && all < enough_ns);)
         all += times.emplace_back(copied_ns());
     const auto ns = static_cast<double>(median(times));
-    return {ns > 0 ? static_cast<double>(2 * bytes) / (ns * 1e-9) : 0, bytes,
+    return {ns > 0 ? static_cast<double>(2 * copy.bytes()) / (ns * 1e-9) : 0, copy.bytes(),
             static_cast<int>(times.size())};
+}
+
+void check_clocks(Programs& programs, Queue& queue)
+{
+    constexpr std::int64_t longest_ns = 1'000'000'000;  // enough beside what a busy host adds
+    constexpr std::int64_t least_share = 4;
+    const Copy copy(programs, queue, cpu_vectors);
+    for (int launches = 1;; launches *= 2) {
+        queue.begin("copy");
+        for (int k = 0; k < launches; ++k)
+            copy.launch(queue);
+        const std::int64_t device_ns = queue.finish().back().span_ns;
+        queue.check_times();
+        if (least_share * device_ns >= queue.wall_ns())
+            return;
+        if (queue.wall_ns() >= longest_ns)
+            throw BadClock(true, "on the device's clock copies took " + std::to_string(device_ns) +
+                                     " ns, and " + std::to_string(queue.wall_ns()) +
+                                     " ns on the host's");
+    }
 }
 
 LaunchCost measure_launch_cost(Programs& programs, Queue& queue)

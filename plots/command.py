@@ -22,7 +22,7 @@ ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 SEE = "Options that all commands have, exit codes and environment: bvhbench --help"
 
 # Options of the whole program. They may come before or after the command, and are passed on to measuring processes.
-COMMON = ("--device", "--kernels", "--data", "--doubles", "--tuning", "--memory-limit", "--time-limit")
+COMMON = ("--device", "--kernels", "--data", "--doubles", "--clock", "--tuning", "--memory-limit", "--time-limit")
 COMMON_LISTS = ("--plugin", "--program")  # may be given several times
 COMMON_FLAGS = ("--force", "--verbose", "--weld", "--wide")
 

@@ -15,6 +15,7 @@ struct CommonOptions {
     std::string data;     ///< folder of data sets; empty: BVHBENCH_DATA
     std::string doubles = "recentred";  ///< a doubles_name: how doubles become floats
     bool weld = false;                  ///< whether vertices of equal position are joined
+    std::string clock = "device";       ///< or "host": whose clock times stages on the device
     /// Folder of tuned values; empty: no tuned values; not set: BVHBENCH_TUNING, else the embedded values.
     std::optional<std::string> tuning;
     std::vector<std::string> plugins;   ///< shared libraries with builders and colliders

@@ -173,6 +173,7 @@ private:
         const Output pairs = is_first ? Output(pairs_, "--pairs", rules) : Output();
         const Output contacts = is_first ? Output(contacts_, "--contacts", rules) : Output();
         PairsFile pairs_file(pairs, false), contacts_file(contacts, false);
+        session.check_clocks();
         const ClusterFound found = run_cluster(ranks, session, task_);
         if (!is_first)
             return 0;

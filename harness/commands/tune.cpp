@@ -102,6 +102,7 @@ public:
         check_words();
         const CommonOptions& common = invocation.common;
         Session session(common);
+        session.check_clocks();
         const Device& device = session.device();
         const std::filesystem::path path = path_of(common, device);
         NamedTuning named = tuning_file_for(device, tuning_folder(common.tuning));

@@ -75,6 +75,11 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_flag("--weld", common.weld,
                  "join vertices of equal position, so that triangles beside each other are "
                  "neighbours: STL has no other way to say so");
+    app.add_option("--clock", common.clock,
+                   "device or host: whose clock times stages on the device; with the host's, each "
+                   "stage waits for the one before")
+        ->check(CLI::IsMember({"device", "host"}))
+        ->capture_default_str();
     app.add_option("--tuning", common.tuning,
                    "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, "
                    "else those in the program");

@@ -110,7 +110,11 @@ std::vector<StageTime> Engine::run_once(Subject& subject)
     std::vector<StageTime> stages;
     std::string failure = reason_of_failure([&] {
         session_.set_caches(plan_.rules.caches.front());
-        stages = subject.once();
+        try {
+            stages = session_.timed(subject.once);
+        } catch (const BadClock&) {  // once may be chance
+            stages = session_.timed(subject.once);
+        }
     });
     session_.set_caches(Caches::hot);
     if (!failure.empty())
@@ -152,6 +156,8 @@ std::vector<StageTime> Engine::from_host(Subject& subject)
         queue.on_host("read_back", subject.read_back);
         std::ranges::move(queue.finish(), std::back_inserter(stages));
     });
+    if (wall_ns_ < 0)
+        throw BadClock(false, "the host's clock went back");
     return stages;
 }
 
@@ -219,7 +225,7 @@ void Engine::sample(std::span<Subject> subjects, Caches caches, std::span<Cell> 
             {cell.collider.name.empty() ? cell.builder.name : cell.collider.name,
              [this, &one, on_host] {
                  const watchdog::Hand hand(one.number);
-                 return on_host ? from_host(one) : one.once();
+                 return session_.timed([&] { return on_host ? from_host(one) : one.once(); });
              },
              cell.samples, bytes_held(cell),
              [this, on_host] { return on_host ? wall_ns_ : session_.queue().wall_ns(); }});
@@ -234,6 +240,7 @@ void Engine::sample(std::span<Subject> subjects, Caches caches, std::span<Cell> 
         Cell& cell = cells[ready[k]];
         cell.samples = std::move(taken[k].samples);
         cell.sampling = one.cell.sampling = facts_of(taken[k].stopped, caches);
+        cell.sampling.dropped = taken[k].dropped;
         if (!taken[k].failure.empty())
             refuse(one, Cell::Status::failed, std::move(taken[k].failure));
     }

@@ -112,6 +112,7 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
 
 Json measured_facts(Session& session, std::vector<std::string> command, const NodeCosts& costs)
 {
+    session.check_clocks();
     Json facts = run_facts(session.device(), std::move(command), costs);
     const std::string failure = reason_of_failure([&] {
         const CopyRate rate = measure_copy_rate(session.programs(), session.queue(), most_copied());

@@ -29,7 +29,8 @@ bool passes(const CellFilter& filter, const std::string& cell);
 /// Returns the number of scenes of the experiment, of builds and of collisions, that have a cell that matches.
 std::size_t parts_of(const Experiment& experiment, const CellFilter& filter);
 
-/// Returns run_facts (harness/record/provenance.h) with the device's copy rate and launch cost, which it measures.
+/// Returns run_facts (harness/record/provenance.h) with the device's copy rate and launch cost, which it measures. Throws Unavailable
+/// if the clocks disagree (Session::check_clocks).
 Json measured_facts(Session& session, std::vector<std::string> command,
                     const NodeCosts& costs = {});
 

@@ -149,6 +149,8 @@ Json run_facts(const Device& device, std::vector<std::string> command, const Nod
     run["device"] = device_facts(device);
     run["libraries"] = libraries;
     run["tuning"] = {{"from", device.tuning.origin()}, {"values", device.tuning.values()}};
+    if (device.host_clock)
+        run["clock"] = "host";
     run["compile_ns"] = 0;
     run["node_costs"] = {{"inner", costs.inner}, {"triangle", costs.triangle}};
     run["conditions"] = host_conditions(threads, build_info.build_type);

@@ -136,6 +136,8 @@ std::string cell_text(const Cell& cell)
                             {"caches", caches_name(cell.sampling.caches)}};
         if (cell.sampling.until > 0)
             json["sampling"]["until"] = cell.sampling.until;
+        if (cell.sampling.dropped > 0)
+            json["sampling"]["dropped"] = cell.sampling.dropped;
         put_if(json["sampling"], "race", std::string(race_name(cell.sampling.race)));
     }
     json["samples"] = cell.samples;

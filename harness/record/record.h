@@ -91,6 +91,7 @@ struct SamplingFacts {
     double until = 0;                        ///< target for interquartile range / median; 0: none
     Race race = Race::none;
     Caches caches = Caches::hot;
+    int dropped = 0;  ///< samples whose times could not be true
 };
 
 /// Times before the first sample, on the host's clock.

@@ -236,13 +236,22 @@ private:
         Taken& taken = taken_[i];
         std::vector<StageTime> stages;
         const int order = order_++;
-        taken.failure = reason_of_failure([&] { stages = cells_[i].once(); });
+        bool is_dropped = false;
+        taken.failure = reason_of_failure([&] {
+            try {
+                stages = cells_[i].once();
+            } catch (const BadClock& error) {
+                is_dropped = true;
+                if (counts)
+                    drop(taken, error);
+            }
+        });
         if (!taken.failure.empty()) {
             taken.stopped = Stopped::failure;
             runners_[i].values.clear();
             return;
         }
-        if (!counts)
+        if (!counts || is_dropped)
             return;
         slow_down(stages, cells_[i].name);
         rules_[i].add(whole_ns(stages), drift_.is_steady());
@@ -254,6 +263,15 @@ private:
             sample.wall_ns = cells_[i].wall_ns();
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         taken.stopped = rules_[i].verdict(elapsed.count());
+    }
+
+    /// Counts a dropped sample. Throws Unavailable if there are too many.
+    static void drop(Taken& taken, const BadClock& error)
+    {
+        const auto all = static_cast<std::size_t>(++taken.dropped) + taken.samples.size();
+        if (taken.dropped > 1 && 10 * static_cast<std::size_t>(taken.dropped) > all)
+            throw Unavailable(std::to_string(taken.dropped) + " of " + std::to_string(all) +
+                              " samples had impossible times: " + clock_sentence(error));
     }
 
     std::span<const Timed> cells_;
@@ -271,6 +289,11 @@ private:
 };
 
 }  // namespace
+
+std::string clock_sentence(const BadClock& error)
+{
+    return error.what() + std::string(error.of_device ? "; --clock host takes the host's" : "");
+}
 
 double quantile(std::vector<double> values, double fraction)
 {

@@ -16,9 +16,10 @@ namespace bvhbench {
 /// One cell to sample.
 struct Timed {
     std::string name;
-    std::function<std::vector<StageTime>()> once;  ///< runs it, waits, returns its stages' times
-    std::vector<Sample> earlier = {};              ///< samples that it already has, which count
-    double bytes = 0;                              ///< bytes held, for a race for memory
+    /// Runs it, waits, returns its stages' times. Throws BadClock if they cannot be true: the sample is then dropped.
+    std::function<std::vector<StageTime>()> once;
+    std::vector<Sample> earlier = {};  ///< samples that it already has, which count
+    double bytes = 0;                  ///< bytes held, for a race for memory
     /// Returns how long the last `once` took on the host's clock, in nanoseconds; may be empty.
     std::function<std::int64_t()> wall_ns = {};
 };
@@ -28,10 +29,12 @@ struct Taken {
     std::vector<Sample> samples;  ///< in the order taken, without warm-up
     std::string failure;          ///< why sampling failed; empty if it did not
     Stopped stopped = Stopped::not_sampled;
+    int dropped = 0;  ///< samples whose times could not be true
 };
 
 /// Samples the cells interleaved, according to `plan`. Each round takes every cell once, in a new random order, so that drift of
-/// the machine affects all cells alike. A cell that fails is not run again; the others continue.
+/// the machine affects all cells alike. A cell that fails is not run again; the others continue. A cell fails as well if more than
+/// one sample, and more than a tenth, had times that cannot be true.
 ///
 /// `calibrate` runs a fixed piece of work and returns its nanoseconds. It is called before the first sample, after every
 /// `calibrate_every` samples, and after the last. Each sample stores the mean of the calibrations around it, and is marked
@@ -47,6 +50,9 @@ struct Taken {
 std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
                                 const std::function<std::int64_t()>& calibrate = {},
                                 Turns* turns = nullptr);
+
+/// Returns the error as a sentence that offers the host's clock if the device's is wrong.
+std::string clock_sentence(const BadClock& error);
 
 /// Returns the quantile `fraction` of the values, interpolated linearly between neighbours; 0 without values.
 double quantile(std::vector<double> values, double fraction);

@@ -9,6 +9,8 @@
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
+#include "harness/base/failure.h"
+#include "harness/session/sampler.h"
 #include "harness/session/tuning_file.h"
 #include "harness/session/watchdog.h"
 
@@ -39,6 +41,7 @@ Device open_device_of(const CommonOptions& common)
     limit_host_memory(common.memory_limit);
     if (common.memory_limit > 0)
         device.memory_limit = common.memory_limit;
+    device.host_clock = common.clock == "host";
     const auto [file, origin] = tuning_file_for(device, tuning_folder(common.tuning));
     device.tuning = tuning_of(file, device, origin);
     return device;
@@ -96,13 +99,43 @@ void Session::take_turns(const std::string& path, const std::string& id)
     turns_.emplace(file, count, id);
 }
 
+std::vector<StageTime> Session::timed(const std::function<std::vector<StageTime>()>& once)
+{
+    try {
+        queue().check_times();  // of what ran before
+    } catch (const BadClock&) {
+    }
+    std::vector<StageTime> stages = once();
+    queue().check_times();
+    return stages;
+}
+
+void Session::check_clocks()
+{
+    const watchdog::Watch watch;
+    std::string problem;
+    const std::string failure = reason_of_failure([&] {
+        try {
+            bvhbench::check_clocks(programs_, queue());
+        } catch (const BadClock& error) {
+            problem = clock_sentence(error);
+        }
+    });
+    if (!failure.empty())
+        renew_queue();
+    if (!problem.empty())
+        throw Unavailable(problem);
+}
+
 std::int64_t Session::calibrate()
 {
     const watchdog::Watch watch;
     try {
         if (!calibration_)
             calibration_.emplace(programs_, queue());
-        return calibration_->take(queue());
+        const std::int64_t ns = calibration_->take(queue());
+        queue().check_times();
+        return ns;
     } catch (...) {
         renew_queue();  // else the next sample would find the remaining launches of this one
         throw;

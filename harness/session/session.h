@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <list>
 #include <memory>
 #include <optional>
@@ -57,6 +58,13 @@ public:
     /// BadUsage or Unavailable.
     void take_turns(const std::string& path, const std::string& id);
     Turns* turns() { return turns_ ? &*turns_ : nullptr; }
+
+    /// Runs one sample and returns its stages. Throws BadClock if their times cannot be true, and what `once` throws.
+    std::vector<StageTime> timed(const std::function<std::vector<StageTime>()>& once);
+
+    /// Throws Unavailable if the device's clock and the host's disagree about a known kernel (device/yardsticks.h). Without room for
+    /// it, nothing is known.
+    void check_clocks();
 
     /// Returns the nanoseconds that a fixed piece of work takes now (device/yardsticks.h).
     std::int64_t calibrate();

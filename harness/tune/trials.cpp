@@ -63,8 +63,8 @@ public:
 
     std::vector<StageTime> once() override
     {
-        std::vector<StageTime> stages =
-            session_.build_once(builder_, input_, Start::from_triangles, &tree_);
+        std::vector<StageTime> stages = session_.timed(
+            [&] { return session_.build_once(builder_, input_, Start::from_triangles, &tree_); });
         std::erase_if(
             stages, [&](const StageTime& time) { return !stage_.empty() && time.stage != stage_; });
         return stages;
@@ -112,7 +112,10 @@ public:
                                            : "";
     }
 
-    std::vector<StageTime> once() override { return pipeline_.once(input_); }
+    std::vector<StageTime> once() override
+    {
+        return session_.timed([&] { return pipeline_.once(input_); });
+    }
 
 private:
     const Input& input_;

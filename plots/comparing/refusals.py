@@ -32,6 +32,9 @@ def require_comparable(first: Named, second: Named, rules: Rules) -> None:
     costs = [results.costs_text(results.costs_of(document["run"])) for document in (one, other)]
     if costs[0] != costs[1]:
         raise WrongUsage(f"{name} counts {costs[0]} and {other_name} {costs[1]}, so their sah_cost are not of one kind")
+    clocks = [document["run"].get("clock", "device") for document in (one, other)]
+    if clocks[0] != clocks[1]:
+        raise WrongUsage(f"{name} was timed by the {clocks[0]}'s clock and {other_name} by the {clocks[1]}'s")
     if rules.other_devices and rules.builders:
         raise WrongUsage("--builders compares times of one device, and --other-devices ratios of two")
     if not rules.other_devices:

@@ -72,6 +72,40 @@ def test_a_device_that_is_lost_is_one_sentence():
     expect(0, *BUILD, says="agrees", LD_PRELOAD=SHIM)
 
 
+def bad_clock(kind: str) -> dict[str, str]:
+    return {"LD_PRELOAD": SHIM, "BVHBENCH_BAD_CLOCK": kind}
+
+
+def test_a_clock_that_lies_is_not_believed():
+    plan = experiment("clock.json", scenes=["soup:300"], builders=["oibvh-multi", "karras"], samples=5)
+    collide = ("collide", "--builder", "oibvh-multi,karras", "--collider", "leaf", "--scene", "soup:300", "--samples", "3")
+    commands = (BUILD, collide, ("run", plan, "--out", "r.json"), ("best", "soup:300", "--out", "best.json"), ("smoke",))
+    offers = "; --clock host takes the host's\n"
+    for kind, says in (("zero", "began at 0"), ("back", "ended before it began"), ("huge", "took longer than on the host's"),
+                       ("slow", "ns on the host's"), ("host", "the host's clock went back")):
+        for words in commands:
+            done = run(*words, **bad_clock(kind))
+            assert done.returncode == 3 and says in done.stderr and not done.stdout, (kind, done)
+            assert done.stderr.endswith(offers) == (kind != "host") and done.stderr.count("\n") == 1, (kind, done)
+        assert not pathlib.Path("r.json").exists() and not pathlib.Path("best.json").exists()
+    for kind in ("zero", "back", "huge", "slow", "some"):
+        expect(0, "run", plan, "--out", "host.json", "--force", "--clock", "host", says="2 agree", **bad_clock(kind))
+        result = valid("host.json")
+        assert result["run"]["clock"] == "host"
+        times = [(stage["span_ns"], sample["wall_ns"]) for cell in result["cells"] for sample in cell["samples"]
+                 for stage in sample["stages"]]
+        assert times and all(0 < span <= wall for span, wall in times), times
+    expect(0, "run", plan, "--out", "device.json", says="2 agree")
+    expect(2, "compare", "device.json", "host.json", "--allow-dirty", says="device.json was timed by the device's clock and host.json by the host's")
+
+
+def test_samples_with_impossible_times_are_dropped_and_too_many_fail_the_cell():
+    plan = experiment("some.json", scenes=["soup:300"], builders=["oibvh-multi", "perfect"], samples=5)
+    expect(4, "run", plan, "--out", "some-out.json", says="impossible times", **bad_clock("some"))
+    cells = valid("some-out.json")["cells"]
+    assert all(cell["status"] == "failed" and "--clock host" in cell["reason"] for cell in cells), cells
+
+
 def test_no_device_is_one_sentence():
     pathlib.Path("no-vendors").mkdir()
     expect(3, *BUILD, says="; there is none", OCL_ICD_VENDORS=os.getcwd() + "/no-vendors")

@@ -6,7 +6,9 @@
 #include <CL/cl.h>
 #include <dlfcn.h>
 #include <execinfo.h>
+#include <time.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -182,6 +184,47 @@ struct Count<Call, cl_int(Handle)> {
     }
 };
 
+/// Returns the clock that BVHBENCH_BAD_CLOCK makes wrong: of the device `zero`, `back` (each launch ends before it begins), `some`
+/// (one in seven does), `huge` or `slow` (a thousandth of the time passes), or that of the `host`, which steps back at each look.
+std::string_view bad_clock()
+{
+    static const char* const kind = std::getenv("BVHBENCH_BAD_CLOCK");
+    return kind != nullptr ? kind : "";
+}
+
+/// Replaces the function that tells when a command began and ended.
+template <class Call, class Function>
+struct Times;
+
+template <class Call>
+struct Times<Call, cl_int(cl_event, cl_profiling_info, std::size_t, void*, std::size_t*)> {
+    static cl_int call(cl_event event, cl_profiling_info what, std::size_t size, void* value,
+                       std::size_t* needed)
+    {
+        const cl_int status =
+            Any<Call, decltype(::clGetEventProfilingInfo)>::call(event, what, size, value, needed);
+        if (status == CL_SUCCESS && value != nullptr && !bad_clock().empty())
+            spoil(what, *static_cast<cl_ulong*>(value));
+        return status;
+    }
+
+    static void spoil(cl_profiling_info what, cl_ulong& time)
+    {
+        static std::atomic<unsigned> ends = 0;
+        constexpr cl_ulong step = 50'000'000;
+        const std::string_view kind = bad_clock();
+        if (kind == "zero")
+            time = 0;
+        else if (kind == "slow")
+            time = step + time / 1000;
+        else if (what == CL_PROFILING_COMMAND_END && kind == "huge")
+            time = cl_ulong{1} << 63;
+        else if (what == CL_PROFILING_COMMAND_END &&
+                 (kind == "back" || (kind == "some" && ++ends % 7 == 0)))
+            time -= step;
+    }
+};
+
 }  // namespace
 
 void begin(Plan plan)
@@ -278,7 +321,7 @@ STAND_BEFORE(clGetProgramBuildInfo, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clGetKernelInfo, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clGetKernelWorkGroupInfo, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clGetEventInfo, Any, CL_OUT_OF_RESOURCES)
-STAND_BEFORE(clGetEventProfilingInfo, Any, CL_PROFILING_INFO_NOT_AVAILABLE)
+STAND_BEFORE(clGetEventProfilingInfo, Times, CL_PROFILING_INFO_NOT_AVAILABLE)
 STAND_BEFORE(clBuildProgram, Any, CL_OUT_OF_HOST_MEMORY)
 STAND_BEFORE(clSetKernelArg, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clFlush, Any, CL_OUT_OF_RESOURCES)
@@ -301,5 +344,17 @@ STAND_BEFORE(clEnqueueBarrierWithWaitList, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clEnqueueUnmapMemObject, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clEnqueueMapBuffer, Any, CL_MAP_FAILURE)
 // clang-format on
+
+/// Replaces the C library's clock.
+extern "C" int clock_gettime(clockid_t clock, timespec* time)
+{
+    static auto* const real =
+        reinterpret_cast<int (*)(clockid_t, timespec*)>(dlsym(RTLD_NEXT, "clock_gettime"));
+    static std::atomic<time_t> looks = 0;
+    const int status = real(clock, time);
+    if (clock == CLOCK_MONOTONIC && bad_clock() == "host")
+        time->tv_sec -= ++looks;
+    return status;
+}
 
 }  // namespace bvhbench::shim

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Replaces the OpenCL loader's functions: counts calls, tracks objects, and makes a chosen call fail. It is linked into a test
-// in front of the loader, or preloaded into the program as a library, where BVHBENCH_FAIL_CALL selects the failing call (see
-// opencl_shim.cpp). It does not depend on the program.
+// in front of the loader, or preloaded into the program as a library, where BVHBENCH_FAIL_CALL selects the failing call and
+// BVHBENCH_BAD_CLOCK a clock that lies (see opencl_shim.cpp). It does not depend on the program.
 #pragma once
 
 #include <cstddef>

@@ -229,5 +229,33 @@ TEST(Sampler, GoesOnWithoutACalibrationThatFailsAndMarksNothing)
     }
 }
 
+/// Has impossible times in every `each`-th sample; in none if it is 0.
+struct BadClocked {
+    int each = 0;
+    int builds = 0;
+
+    std::vector<StageTime> operator()()
+    {
+        if (++builds; each > 0 && builds % each == 0)
+            throw BadClock(true, "a launch ended before it began");
+        return {{"hierarchy", 1000, 1000, 0, 1, 0}};
+    }
+};
+
+TEST(Sampler, DropsAFewSamplesWithImpossibleTimes)
+{
+    BadClocked seldom{20}, often{5};
+    int order = 0;
+    const std::vector<Timed> cells = {{"seldom", std::ref(seldom)}, {"often", std::ref(often)}};
+    const std::vector<Taken> all = take_samples(cells, {.samples = 50, .warm_up = 1}, order);
+    EXPECT_EQ(all[0].samples.size(), 50u);
+    EXPECT_EQ(all[0].dropped, 2);
+    EXPECT_EQ(all[0].stopped, Stopped::number);
+    EXPECT_EQ(all[1].stopped, Stopped::failure);
+    EXPECT_EQ(all[1].failure,
+              "2 of 9 samples had impossible times: a launch ended before it began; "
+              "--clock host takes the host's");
+}
+
 }  // namespace
 }  // namespace bvhbench

@@ -84,7 +84,7 @@ class Show(InFolder):
     def shown(self, *words: str, columns: str = "80", **environment: str) -> str:
         """Returns what `show` writes to a terminal."""
         builders = ("oibvh-multi", "oibvh-single", "karras")
-        file = self.written(document(*(cell(builder, 1000 * (place + 1)) for place, builder in enumerate(builders))))
+        file = self.written(document(*(cell(builder, 100_000 * (place + 1)) for place, builder in enumerate(builders))))
         own, child = pty.openpty()
         with os.fdopen(own, "rb", buffering=0) as reader:
             process = subprocess.Popen([sys.executable, ROOT / "plots", "show", file, *words], stdout=child,
