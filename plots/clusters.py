@@ -6,6 +6,7 @@ import os
 import pathlib
 from typing import Any
 
+import documents
 import shape
 from documents import FOLDER
 from json_files import Refused, parsed
@@ -43,12 +44,25 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
     document = parsed(pathlib.Path(path))
     try:
         check_of(kind_of(path))(document)
-        for run in document.get("runs", []):
-            if "result" in run:
-                check_of(format_of(run["result"]))(run["result"])
+        results = [run["result"] for run in document.get("runs", []) if "result" in run]
+        for result in results:
+            check_of(format_of(result))(result)
+        for result in results or [document]:
+            documents.check_of("run")(result["run"])
+            check_even(result)
     except shape.Wrong as wrong:
         raise Refused(f"{path}: not a file of `bvhbench cluster`: {wrong}") from wrong
     return document
+
+
+def check_even(result: dict[str, Any]) -> None:
+    """Raises Wrong unless all ranks have as many samples, and these the same stages, which no schema can say."""
+    each = [[[stage["stage"] for stage in sample["stages"]] for sample in rank.get("samples", [])]
+            for rank in result.get("ranks", [])]
+    if any(len(samples) != len(each[0]) for samples in each):
+        raise shape.Wrong("has ranks with different numbers of samples")
+    if any(stages != each[0][0] for samples in each for stages in samples):
+        raise shape.Wrong("has samples with different stages")
 
 
 def measured(document: dict[str, Any]) -> list[dict[str, Any]]:

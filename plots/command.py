@@ -183,9 +183,6 @@ def run(main: Callable[[list[str]], int], words: list[str]) -> int:
     try:
         with signals_to(end):
             return output.to_an_end(lambda: main(words), "bvhbench: ")
-    except ModuleNotFoundError as error:
-        output.say(f"bvhbench: {sys.executable} has no module {error.name}")
-        return 3
     except Ended as ended:
         output.say("bvhbench: stopped")
         return 128 + ended.args[0]

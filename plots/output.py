@@ -8,6 +8,7 @@ import signal
 import stat
 import sys
 import tempfile
+import traceback
 import unicodedata
 from collections.abc import Callable, Iterable
 from typing import TextIO
@@ -139,10 +140,22 @@ def to_an_end(main: Callable[[], int], prefix: str = "") -> int:
     except BrokenPipeError:  # the reader of standard output has closed it
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGPIPE)
+    except ModuleNotFoundError as error:
+        say(f"{prefix}{sys.executable} has no module {error.name}")
+    except ImportError as error:
+        say(f"{prefix}a module of {sys.executable} does not start: {described(error)}")
     except OSError as error:
         say(f"{prefix}standard output cannot be written: {error.strerror}")
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # discards the rest of its buffer
+    except Exception as error:  # no reader foresaw it: the file is malformed in a new way, or the command has a defect
+        say(f"{prefix}what was read cannot be used: {type(error).__name__}, {described(error)} ({place_of(error)})")
     return 3
+
+
+def place_of(error: Exception) -> str:
+    """Returns the file and line of this program where an error arose."""
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{pathlib.Path(place.filename).name}:{place.lineno}"
 
 
 def prepare_streams() -> None:

@@ -34,8 +34,8 @@ def question(experiment: str, axis: str | None) -> str:
     """Returns the question of one of the program's experiments or of an axis of accuracy; empty for others."""
     if axis:
         return AXES.get(axis, "")
-    path = EXPERIMENTS / f"{experiment}.json"
-    return json_files.parsed(path).get("question", "") if "/" not in experiment and path.exists() else ""
+    path = next((path for path in EXPERIMENTS.glob("*.json") if path.stem == experiment), None)
+    return json_files.parsed(path).get("question", "") if path else ""
 
 
 def verdicts(cells: list[Cell]) -> str:

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Fuzzes `report` and `plot` with malformed result files: each must succeed or print one sentence with the reason.
+"""Fuzzes every command that reads result files with malformed ones: each must succeed or print one sentence with the reason.
 
-Usage: results_fuzz.py <source root> [--cases N] [--seconds S] [--seed N]
+Usage: results_fuzz.py <source root> [--cases N] [--seconds S] [--seed N] [--only COMMAND]
 
-Each case is a small result file with some of its cells, changed in its values or in its bytes. A page is made of each case and
-figures of every tenth. An exit code other than 0, 3 or 1 (report: wrong answer), or any output but one sentence, is a finding.
+Each case is a small result file with some of its cells, or a file of `cluster`, changed in its values or in its bytes. Every
+command reads each case, and `compare` the unchanged file too; figures are drawn of every tenth. An exit code that docs/commands.md
+does not have for the command, any output but one sentence, or the sentence of an error that no reader foresaw is a finding.
 Findings are kept in build/fuzz/results; turn each into a test and then into a seed in tests/fuzz/results.
 """
 import argparse
@@ -28,8 +29,10 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 sys.path.insert(0, str(ROOT / "plots"))
 
 import all as all_figures  # noqa: E402
+import command  # noqa: E402
 import report  # noqa: E402
 import report_page  # noqa: E402
+from commands import compare, export, merge, show  # noqa: E402
 
 NUMBERS = (0, 1, -1, 2, 2**31, 2**53 + 1, 2**63, 2**64, 10**30, 10**400, 0.0, -0.0, 1e-320, 1e-17, 0.5, 1e99, 1e101, 1e308,
            -1e308, float("inf"), float("nan"))
@@ -98,8 +101,8 @@ def bytes_changed(text: bytes, chance: random.Random) -> bytes:
                           text[:first] + bytes([chance.choice(b"[]{},:\"\\-+e0")]) + text[first + 1:]))
 
 
-def case(seeds: list[dict[str, Any]], chance: random.Random) -> bytes:
-    document = copy.deepcopy(chance.choice(seeds))
+def case(seed: dict[str, Any], chance: random.Random) -> bytes:
+    document = copy.deepcopy(seed)
     for part in ("cells", "stress"):
         if document.get(part) and chance.random() < 0.8:
             document[part] = chance.sample(document[part], min(len(document[part]), chance.randint(1, KEPT)))
@@ -107,6 +110,19 @@ def case(seeds: list[dict[str, Any]], chance: random.Random) -> bytes:
         document = changed(document, chance)
     text = json.dumps(document).encode()
     return bytes_changed(text, chance) if chance.random() < 0.2 else text
+
+
+def calls(folder: pathlib.Path, chance: random.Random) -> dict[str, tuple[Callable[[], int], list[str], set[int]]]:
+    """Returns how each command reads the case: its main(), its words, and the codes that it may end with beside 0 and 3: 0 if it may say
+    a sentence then."""
+    file, before = str(folder / "case.json"), str(folder / "before.json")
+    words = {"show": [file], "compare": [before, file, "--allow-dirty"], "merge": [file, "-o", str(folder / "m.json"), "--force"],
+             "export": [file, "--format", chance.choice(list(export.FORMATS)), "--out", str(folder / "e.txt"), "--force"]}
+    found = {name: (lambda read=read, name=name: command.run(read.main, words[name]), [name, *words[name]], codes) for name, read, codes in (
+        ("show", show, set()), ("compare", compare, {1, 2}), ("merge", merge, {1, 2}), ("export", export, {0}))}
+    found["report"] = report.main, ["report.py", file, "-o", str(folder / "r.html")], {1}
+    found["plot"] = all_figures.main, ["all.py", file, "--out", str(folder / "pictures")], set()
+    return found
 
 
 def ended(main: Callable[[], int], words: list[str]) -> tuple[object, str]:
@@ -122,9 +138,9 @@ def ended(main: Callable[[], int], words: list[str]) -> tuple[object, str]:
     return code, errors.read()
 
 
-def is_find(code: object, said: str, wrong_is_1: bool) -> bool:
-    is_sentence = said.count("\n") == 1 and len(said) > 20
-    return not (code == 3 and is_sentence or (code == 0 or code == 1 and wrong_is_1) and said == "")
+def is_find(code: object, said: str, codes: set[int]) -> bool:
+    is_sentence = said.count("\n") == 1 and len(said) > 20 and "what was read cannot be used" not in said
+    return not (code in {3, *(codes & {0, 2})} and is_sentence or code in {0, *(codes & {1})} and said == "")
 
 
 def main() -> int:
@@ -133,6 +149,7 @@ def main() -> int:
     parser.add_argument("--cases", type=int, default=10**9)
     parser.add_argument("--seconds", type=float, default=float("inf"))
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="the command to fuzz; default: all")
     arguments = parser.parse_args()
     paths = [*sorted((ROOT / "tests" / "golden").glob("*.json")), *sorted((ROOT / "tests" / "fuzz" / "results").iterdir())]
     seeds = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
@@ -144,25 +161,28 @@ def main() -> int:
         folder = pathlib.Path(name)
         (folder / "plotly.js").write_text("", encoding="utf-8")
         report_page.plotly_file = lambda: folder / "plotly.js"  # loading it would take most of a page's time
-        file, page, pictures = folder / "case.json", folder / "r.html", folder / "pictures"
         for number in range(arguments.cases):
             if time.monotonic() > end:
                 break
-            file.write_bytes(case(seeds, random.Random(f"{arguments.seed} {number}")))
-            runs = [("report", report.main, ["report.py", str(file), "-o", str(page)])]
-            if number % FIGURES_EVERY == 0:
-                runs.append(("plot", all_figures.main, ["all.py", str(file), "--out", str(pictures)]))
-            for what, script, words in runs:
+            chance = random.Random(f"{arguments.seed} {number}")
+            seed = chance.choice(seeds)
+            (folder / "before.json").write_text(json.dumps(seed), encoding="utf-8")
+            (folder / "case.json").write_bytes(case(seed, chance))
+            for what, (script, words, others) in calls(folder, chance).items():
+                if arguments.only not in ("", what) or (what == "plot" and arguments.only == "" and number % FIGURES_EVERY != 0):
+                    continue
                 code, said = ended(script, words)
                 codes[f"{what} {code if isinstance(code, int) else 'an exception'}"] += 1
-                if is_find(code, said, what == "report"):
+                if is_find(code, said, others):
                     finds += 1
                     kept = ROOT / "build" / "fuzz" / "results" / f"{arguments.seed}-{number}.json"
                     kept.parent.mkdir(parents=True, exist_ok=True)
-                    shutil.copy(file, kept)
-                    print(f"find: {what} of {kept}: {code}\n{said}")
-                page.unlink(missing_ok=True)
-                shutil.rmtree(pictures, ignore_errors=True)
+                    shutil.copy(folder / "case.json", kept)
+                    shutil.copy(folder / "before.json", kept.with_suffix(".before.json"))
+                    print(f"find: {what} of {kept}: {code}\n{said}", flush=True)
+            for made in ("m.json", "r.html", "e.txt"):
+                (folder / made).unlink(missing_ok=True)
+            shutil.rmtree(folder / "pictures", ignore_errors=True)
     print(f"{sum(codes.values())} runs, {finds} finds: " + ", ".join(f"{count} {what}" for what, count in sorted(codes.items())))
     return 1 if finds else 0
 

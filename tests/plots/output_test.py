@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Tests the handling of files that pages and pictures are written to, and of files that are not results."""
+import contextlib
+import io
 import json
 import os
 import pathlib
@@ -10,7 +12,9 @@ import sys
 import tempfile
 import unittest
 
-from base import GOLDEN, ROOT, InFolder, golden
+from base import GOLDEN, ROOT, InFolder, golden  # first: it adds plots to sys.path
+
+import output
 
 TABLE1 = GOLDEN / "table1.json"
 DEEP = "[" * 100_000
@@ -31,6 +35,8 @@ CHANGES = {  # of a cell
     "cells[0].samples[1].stages[0].span_ns is no integer": lambda cell: cell["samples"][1]["stages"][0].update(span_ns="1"),
     "cells[0].samples[0].stages[0].span_ns is too large": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=10**400),
     "cells[0] has no 'check'": lambda cell: cell.pop("check"),
+    "cells[0].samples[0].stages[0].span_ns is less than 0": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=-1),
+    "cells[0] has no 'collider'": lambda cell: cell.update(operation="collide"),
     "cells[0].builder.options is nested more than": lambda cell: cell["builder"].update(options={"order": json.loads("[" * 50 + "]" * 50)}),
 }
 
@@ -56,6 +62,26 @@ class Malformed(InFolder):
             document = json.loads(TABLE1.read_text(encoding="utf-8"))
             change(document["cells"][0])
             self.assert_told(self.written(document, "bad.json"), words)
+
+    def test_every_command_that_reads_results_tells_it(self) -> None:
+        bad, out = self.folder / "bad.json", self.folder / "out"
+        for words, change in CHANGES.items():
+            document = golden("table1")
+            change(document["cells"][0])
+            self.written(document, "bad.json")
+            for command in (["show", bad], ["compare", TABLE1, bad], ["merge", bad, "-o", out], ["export", bad, "--format", "csv"],
+                            ["plot", bad, "--out", out]):
+                done = self.run_script("__main__.py", *command)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (3, "", 1), done)
+                self.assertIn(words, done.stderr)
+                self.assertFalse(out.exists())
+
+    def test_an_error_that_no_reader_foresaw_is_a_sentence(self) -> None:
+        errors = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
+        with contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO())), contextlib.redirect_stderr(errors):
+            self.assertEqual(output.to_an_end(lambda: [][0], "bvhbench: "), 3)
+        errors.seek(0)
+        self.assertRegex(errors.read(), r"^bvhbench: what was read cannot be used: IndexError, list index out of range \(output_test.py:\d+\)\n$")
 
     def test_devices_are_no_results(self) -> None:
         self.assert_told(pathlib.Path("/dev/null"), "it is a device, not a result file")

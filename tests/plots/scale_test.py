@@ -114,6 +114,21 @@ class Table(unittest.TestCase):
                 clusters.read(broken.name)
 
 
+    def test_refuses_ranks_and_samples_that_are_uneven(self) -> None:
+        whole = json.loads((ROOT / "tests/fuzz/results/cluster_frames.json").read_text(encoding="utf-8"))
+        for change, words in ((lambda ranks: ranks[1]["samples"].pop(), "ranks with different numbers of samples"),
+                              (lambda ranks: ranks[0]["samples"].clear(), "ranks with different numbers of samples"),
+                              (lambda ranks: ranks[1]["samples"][2]["stages"].pop(), "samples with different stages"),
+                              (lambda ranks: ranks[0]["samples"][0].update(stages=[]), "samples with different stages")):
+            document = json.loads(json.dumps(whole))
+            change(document["ranks"])
+            with tempfile.NamedTemporaryFile("w", suffix=".json") as broken:
+                json.dump(document, broken)
+                broken.flush()
+                with self.assertRaisesRegex(Refused, words):
+                    clusters.read(broken.name)
+
+
 class Compared(unittest.TestCase):
     def setUp(self) -> None:
         self.first = clusters.read(ROOT / "results" / "h200" / "cluster-strong.json.xz")["runs"][1]["result"]
