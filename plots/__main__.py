@@ -4,13 +4,19 @@
     python3 plots COMMAND ARGUMENTS...
 """
 import importlib
+import os
 import sys
 
 import command
 
 
 def main(words: list[str]) -> int:
-    return importlib.import_module(f"commands.{words[0]}").main(words[1:])
+    try:
+        return importlib.import_module(f"commands.{words[0]}").main(words[1:])
+    except ModuleNotFoundError:
+        if not sys.flags.ignore_environment:
+            raise
+        os.execv(sys.executable, [sys.executable, *sys.argv])  # what the system lacks may be among the user's packages
 
 
 if __name__ == "__main__":

@@ -30,17 +30,29 @@ std::filesystem::path script_called(const std::string& name)
     return path;
 }
 
+constexpr const char* system_python = "/usr/bin/python3";
+
 /// Prefers /usr/bin/python3, which sees the system's NumPy and matplotlib; another Python earlier in PATH may not.
-std::string python()
+std::string python() { return access(system_python, X_OK) == 0 ? system_python : "python3"; }
+
+/// Returns the words that start a script of plots/. The system's Python is told to ignore what may be meant for another one
+/// (PYTHONHOME, PYTHONPATH, packages of the user), with which it may not start.
+std::vector<std::string> start_of(const std::string& script)
 {
-    return access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
+    unsetenv("MPLBACKEND");  // pictures are files, and an unknown name is refused
+    std::vector<std::string> words = {python()};
+    if (words.front() == system_python)
+        words.emplace_back("-Es");
+    words.push_back(script_called(script));
+    return words;
 }
 
 /// Runs a script of plots/ to its end and prints its errors, except where a missing module explains a failure. Returns why it
 /// failed, as the end of a sentence; empty if it did not.
-std::string failure_of(const std::string& script, std::vector<std::string> words)
+std::string failure_of(const std::string& script, const std::vector<std::string>& arguments)
 {
-    words.insert(words.begin(), {python(), script_called(script)});
+    std::vector<std::string> words = start_of(script);
+    words.insert(words.end(), arguments.begin(), arguments.end());
     std::cout.flush();
     Child child({.path = python(),
                  .words = words,
@@ -59,14 +71,14 @@ std::string failure_of(const std::string& script, std::vector<std::string> words
     std::cerr << end.output;
     if (is_done)
         return {};
-    return python() + ' ' + words[1] + ' ' + spelled(end, 0);
+    return python() + ' ' + script_called(script).string() + ' ' + spelled(end, 0);
 }
 
 }  // namespace
 
 void become_python(const std::vector<std::string>& words)
 {
-    std::vector<std::string> all = {python(), script_called("__main__.py")};
+    std::vector<std::string> all = start_of("__main__.py");
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> argv;
     for (std::string& word : all)

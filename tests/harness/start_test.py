@@ -93,4 +93,23 @@ def test_kernels_that_cannot_be_kept_are_compiled_all_the_same():
            XDG_CACHE_HOME="/proc/no", POCL_CACHE_DIR="", TMPDIR="/proc/no")
 
 
+def test_settings_for_another_python_or_matplotlib_change_nothing():
+    expect(0, "build", "--builder", "perfect", "--scene", "soup:30", "--samples", "12", "--json", "r.json")
+    for name in ("numpy", "matplotlib", "statistics"):
+        pathlib.Path("foreign").mkdir(exist_ok=True)
+        pathlib.Path(f"foreign/{name}.py").write_text("raise ImportError('of another Python')")
+    reads = (("show", "r.json"), ("compare", "r.json", "r.json", "--allow-dirty"), ("report", "--brief", "r.json", "-o", "b.html", "--force"),
+             ("plot", "r.json", "--out", "drawn"))
+    usual = [expect(0, *words) for words in reads]
+    pictures = {path.name: path.read_bytes() for path in pathlib.Path("drawn").iterdir()}
+    assert any(name.endswith(".png") for name in pictures) and any(name.endswith(".svg") for name in pictures), pictures.keys()
+    for settings in ({"PYTHONHOME": "/nonexistent"}, {"PYTHONPATH": os.getcwd() + "/foreign"}, {"MPLBACKEND": "nonsense"}):
+        assert [expect(0, *words, **settings) for words in reads] == usual, settings
+    for setting in ("text.usetex: True", "savefig.transparent: True", "font.size: 30", "figure.facecolor: red", "savefig.format: pdf"):
+        pathlib.Path("matplotlibrc").write_text(setting)
+        shutil.rmtree("drawn")
+        expect(0, "plot", "r.json", "--out", "drawn")
+        assert {path.name: path.read_bytes() for path in pathlib.Path("drawn").iterdir()} == pictures, setting
+
+
 sys.exit(main(globals()))
