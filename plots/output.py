@@ -9,7 +9,6 @@ import stat
 import sys
 import tempfile
 import traceback
-import unicodedata
 from collections.abc import Callable, Iterable
 from typing import TextIO
 
@@ -18,6 +17,7 @@ from json_files import Refused
 
 OF_200_DPI = b"\x00\x00\x00\tpHYs\x00\x00\x1e\xc2\x00\x00\x1e\xc2\x01"  # in a PNG: 7,874 dots a metre
 HEAD_BYTES = 4096
+OBEYED = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\udc80-\udc9f]")
 
 
 class WrongUsage(Exception):
@@ -69,7 +69,7 @@ def write(path: pathlib.Path | str, content: bytes) -> bool:
     try:
         about = path.stat() if path.exists() else None
         if about and (stream := standard_stream(about)):
-            stream.buffer.write(content)
+            stream.buffer.write(shown(content) if stream.isatty() else content)
             stream.flush()
             return False
         if about and not stat.S_ISREG(about.st_mode):
@@ -79,6 +79,10 @@ def write(path: pathlib.Path | str, content: bytes) -> bool:
         return True
     except OSError as error:
         raise Refused(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+def shown(content: bytes) -> bytes:
+    return printable(content.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogateescape")
 
 
 def standard_stream(about: os.stat_result) -> TextIO | None:
@@ -176,10 +180,11 @@ def described(error: Exception) -> str:
 
 
 def printable(text: str) -> str:
-    """Spells out control characters except newlines and tabs, because a terminal would obey them."""
-    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f]", lambda letter: f"\\x{ord(letter[0]):02x}", text)
+    """Spells out control characters except newlines and tabs, and changes of the direction of writing, because a terminal would
+    obey them. Bytes that are no text are control characters too (surrogateescape)."""
+    return OBEYED.sub(lambda letter: f"\\u{ord(letter[0]):04x}" if "\u2000" < letter[0] < "\ud800" else f"\\x{ord(letter[0]) & 0xff:02x}", text)
 
 
 def say(sentence: str) -> None:
-    """Prints a message to standard error in one line. Control characters are spelled out, because a terminal would obey them."""
-    print("".join(repr(letter)[1:-1] if unicodedata.category(letter) == "Cc" else letter for letter in sentence), file=sys.stderr)
+    """Prints a message to standard error in one line, without control characters."""
+    print(printable(sentence).replace("\n", "\\n").replace("\t", "\\t"), file=sys.stderr)

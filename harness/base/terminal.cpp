@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -23,6 +24,34 @@ std::string rough(double seconds)
                : std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
 }
 
+struct Letter {
+    std::size_t size;
+    char32_t code;
+};
+
+/// Returns the first character of a text in UTF-8. A byte that begins none stands for itself.
+Letter first_letter(std::string_view text)
+{
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const auto size = static_cast<std::size_t>(std::countl_one(byte(0)));
+    if (size < 2 || size > 4 || size > text.size())
+        return {1, byte(0)};
+    char32_t code = byte(0) & (0x7fu >> size);
+    for (std::size_t i = 1; i < size; ++i) {
+        if ((byte(i) & 0xc0) != 0x80)
+            return {1, byte(0)};
+        code = code << 6 | (byte(i) & 0x3fu);
+    }
+    return {size, code};
+}
+
+/// True for what a terminal obeys: control characters but line ends and tabs, and changes of the direction of writing.
+bool is_obeyed(char32_t code)
+{
+    return (code < 0x20 && code != '\n' && code != '\t') || (code >= 0x7f && code < 0xa0) ||
+           (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
+}
+
 double seconds(std::chrono::steady_clock::duration time)
 {
     return std::chrono::duration<double>(time).count();
@@ -34,15 +63,17 @@ std::string printable(std::string_view text)
 {
     std::string out;
     out.reserve(text.size());
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        if ((byte >= 0x20 && byte != 0x7f) || c == '\n' || c == '\t') {
-            out += c;
-            continue;
+    while (!text.empty()) {
+        const auto [size, code] = first_letter(text);
+        if (is_obeyed(code)) {
+            char escaped[16];
+            std::snprintf(escaped, sizeof escaped, code < 0x100 ? "\\x%02x" : "\\u%04x",
+                          static_cast<unsigned>(code));
+            out += escaped;
+        } else {
+            out += text.substr(0, size);
         }
-        char escaped[8];
-        std::snprintf(escaped, sizeof escaped, "\\x%02x", byte);
-        out += escaped;
+        text.remove_prefix(size);
     }
     return out;
 }

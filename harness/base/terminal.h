@@ -12,8 +12,8 @@
 
 namespace bvhbench {
 
-/// Returns `text` with control characters written as \x1b, because names of files and scenes may contain some and a terminal
-/// would interpret them. Line ends and tabs are kept.
+/// Returns `text` with control characters, and those that change the direction of writing, written as \x1b or \u202e, because
+/// names of files and scenes may contain some and a terminal would obey them. Line ends and tabs are kept.
 std::string printable(std::string_view text);
 
 /// Escapes everything written to `stream` with printable() for the lifetime of this object.

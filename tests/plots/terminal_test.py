@@ -10,10 +10,33 @@ import unittest
 
 from base import ROOT, InFolder, cell, document  # first: it adds plots to sys.path
 
+import output
 import terminal
 from tables import Table
 
 CODES = re.compile("\x1b\\[[0-9;]*m")
+
+
+class Letters(InFolder):
+    def test_that_a_terminal_obeys_are_spelled_out(self) -> None:
+        self.assertEqual(output.printable("a\tb\n\x1b[31m\x9b31m\x85\u202ec\u2066d\udc9b\udce4 äß"),
+                         "a\tb\n\\x1b[31m\\x9b31m\\x85\\u202ec\\u2066d\\x9b\udce4 äß")
+
+    def test_of_an_export_reach_a_file_and_no_terminal(self) -> None:
+        path, out = self.written(document(cell("a\x9bb\u202ec\x1b]0;d"))), self.folder / "e.csv"
+        words = [sys.executable, ROOT / "plots", "export", path, "--format", "csv"]
+        subprocess.run([*words, "--out", out], check=True, capture_output=True)
+        self.assertIn("a\x9bb\u202ec\x1b]0;d", out.read_text(encoding="utf-8"))
+        own, child = pty.openpty()
+        with subprocess.Popen(words, stdout=child), os.fdopen(own, "rb") as terminal_of:
+            os.close(child)
+            shown = b""
+            try:
+                while part := terminal_of.read1():
+                    shown += part
+            except OSError:
+                pass  # the other end is closed
+        self.assertIn("a\\x9bb\\u202ec\\x1b]0;d", shown.decode())
 
 
 class Tables(unittest.TestCase):
