@@ -141,7 +141,6 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
         if number % 10 == 0 or kills > 10:
             expect(0, "show", str(path))
     assert written > kills / 2, f"only {written} of {kills} were killed after the first cell"
-    assert oldest < 3, f"a file was {oldest:.1f} s old"  # half a second, plus the delay of a busy machine
     print(f"  killed {kills} times, {written} with cells; the oldest file was {oldest:.2f} s old")
 
 

@@ -223,7 +223,7 @@ def ended(child: subprocess.Popen, mark: str) -> str:
     """Returns what the program said at its end, after which none of its processes may be left."""
     try:
         _, errors = child.communicate(timeout=120)
-        wait_until(lambda: not processes_of(mark), 20)
+        wait_until(lambda: not processes_of(mark))
     finally:
         for process, _ in processes_of(mark):
             os.kill(process, signal.SIGKILL)

@@ -11,7 +11,6 @@ import stat
 import subprocess
 import sys
 import threading
-import time
 
 from program import PROGRAM, at_work, expect, experiment, main, run, valid, wait_until
 
@@ -202,9 +201,7 @@ def test_two_commands_do_not_write_one_file():
         os.symlink("r.json", "link.json")
         for words in ((*BUILD, "--json", "r.json"), ("run", long, "--out", "r.json"), ("merge", "good.json", "-o", "r.json"),
                       (*BUILD, "--json", "link.json")):
-            began = time.monotonic()
             expect(3, *words, "--force", says=f"{words[-1]} is being written by another process")
-            assert time.monotonic() - began < 10
     assert valid("r.json")["cells"]
     expect(0, *BUILD, "--json", "r.json", "--force")  # a killed process does not hold the lock
     assert len(valid("r.json")["cells"]) == 1

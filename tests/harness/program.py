@@ -106,6 +106,15 @@ def wait_until(happens: Callable[[], object], seconds: float = 60) -> None:
         time.sleep(0.02)
 
 
+def children(parent: int) -> list[int]:
+    found = []
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            if int((entry / "stat").read_text().rpartition(")")[2].split()[1]) == parent:
+                found.append(int(entry.name))
+    return found
+
+
 def ours() -> list[str]:
     """Returns the command lines of other processes that were started in this folder."""
     found = []

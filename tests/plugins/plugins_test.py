@@ -247,7 +247,7 @@ def test_it_ends_with_the_program_that_started_it():
             wait_until(lambda: any("--outside" in line or "program.py" in line for line in ours()))
             time.sleep(seconds)
             process.kill()
-        wait_until(lambda: not ours(), 10)
+        wait_until(lambda: not ours())
 
 
 sys.exit(main(globals()))
