@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -28,8 +30,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int look_ms = 100;  ///< between two looks at the resident memory
 constexpr std::size_t longest_reply = std::size_t{1} << 20;
-constexpr std::size_t kept_errors = 4096;  ///< of standard error, from its end
-constexpr int leaving_ms = 2000;           ///< given to a process that is about to end
+constexpr std::size_t kept_errors = 4096;       ///< of standard error, from its end
+constexpr int leaving_ms = 2000;                ///< given to a process that is about to end
+constexpr std::chrono::seconds family_look{1};  ///< between two looks at all that it started
 
 std::string seconds_text(double seconds)
 {
@@ -45,6 +48,23 @@ std::uint64_t resident_bytes(pid_t process)
     std::uint64_t all = 0, resident = 0;
     file >> all >> resident;
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Returns the processes with this variable, "NAME=value", in their environment, which those that they start inherit.
+std::vector<pid_t> processes_with(const std::string& variable)
+{
+    std::vector<pid_t> found;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
+        const pid_t process = std::atoi(entry.path().filename().c_str());
+        std::ifstream file(process > 0 ? entry.path() / "environ" : std::filesystem::path());
+        for (std::string one; std::getline(file, one, '\0');)
+            if (one == variable) {
+                found.push_back(process);
+                break;
+            }
+    }
+    return found;
 }
 
 /// Waits until the process has ended, which is left to be told of. False if it has not after leaving_ms.
@@ -85,6 +105,8 @@ struct Ends {
 
 Process::Process(const Library& library, const Limits& limits) : library_(library), limits_(limits)
 {
+    static std::atomic<unsigned> number = 0;
+    mark_ = "BVHBENCH_OUTSIDE=" + std::to_string(getpid()) + '-' + std::to_string(++number);
     Ends input, errors;
     // A socket, because writing to one whose reader has ended raises no signal with MSG_NOSIGNAL.
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.files.data()) != 0 ||
@@ -92,7 +114,7 @@ Process::Process(const Library& library, const Limits& limits) : library_(librar
         fail("there is no channel to it: " + std::system_category().message(errno));
     child_ = std::make_unique<Child>(Child::Start{.path = "/proc/self/exe",
                                                   .words = worker_words(library),
-                                                  .environment = {parent_variable()},
+                                                  .environment = {parent_variable(), mark_},
                                                   .input = input.files[1],
                                                   .errors_to = errors.files[1]});
     to_ = input.take(0);
@@ -105,15 +127,32 @@ Process::~Process()
     constexpr std::string_view quit = "{\"call\":\"quit\"}\n";
     if (child_ != nullptr && send(to_, quit.data(), quit.size(), MSG_NOSIGNAL) > 0)
         has_ended(child_->process());  // else it is killed
-    child_.reset();
+    end_all();
     for (const int file : {to_, errors_})
         if (file >= 0)
             close(file);
 }
 
+/// Ends the process and all that it started.
+void Process::end_all()
+{
+    if (child_ == nullptr)
+        return;
+    child_.reset();
+    constexpr int most_rounds = 100;  // each may start others before it is killed
+    for (int round = 0; round < most_rounds; ++round) {
+        const std::vector<pid_t> left = processes_with(mark_);
+        if (left.empty())
+            return;
+        for (const pid_t process : left)
+            kill(process, SIGKILL);
+        poll(nullptr, 0, 2);
+    }
+}
+
 void Process::fail(const std::string& what)
 {
-    child_.reset();
+    end_all();
     std::string words = last_words(last_errors_);
     throw Unavailable(std::filesystem::path(library_.file).filename().string() +
                       (call_.empty() ? "" : " in `" + call_ + "`") + ": " + what +
@@ -138,10 +177,19 @@ void Process::keep_errors()
             last_errors_.erase(0, last_errors_.size() - kept_errors);
 }
 
+/// Throws if the process takes too much memory, or, at most once a second, if it does with all that it started.
 void Process::check_resident()
 {
-    if (const std::uint64_t taken = resident_bytes(child_->process());
-        limits_.host_bytes > 0 && taken > limits_.host_bytes)
+    if (limits_.host_bytes == 0)
+        return;
+    std::uint64_t taken = resident_bytes(child_->process());
+    if (const auto now = Clock::now(); now - family_looked_ > family_look) {
+        family_looked_ = now;
+        taken = 0;
+        for (const pid_t process : processes_with(mark_))
+            taken += resident_bytes(process);
+    }
+    if (taken > limits_.host_bytes)
         fail("out of host memory: it takes " + std::to_string(taken) + " bytes, and " +
              std::to_string(limits_.host_bytes) + " are allowed");
 }

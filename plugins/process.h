@@ -4,6 +4,7 @@
 // exception.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -52,6 +53,7 @@ public:
 private:
     [[noreturn]] void fail(const std::string& what);
     [[noreturn]] void fail_at_end();
+    void end_all();
     std::string next_line();
     void keep_errors();
     void check_resident();
@@ -60,7 +62,9 @@ private:
     Limits limits_;
     std::string call_;  ///< the last one
     int to_ = -1, errors_ = -1;
+    std::string mark_;  ///< variable that it and all that it starts have in their environment
     std::unique_ptr<Child> child_;  ///< null after it was ended
+    std::chrono::steady_clock::time_point family_looked_ = std::chrono::steady_clock::now();
     std::string replies_, last_errors_;
     std::int64_t wall_ns_ = 0;
 };

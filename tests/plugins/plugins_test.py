@@ -24,7 +24,7 @@ def cells(*words: str, code: int = 0, **environment: str) -> dict[str, dict]:
     key = "--out" if words[0] == "run" else "--json"
     done = run(*words, key, "r.json", "--force", **environment)
     assert done.returncode == code, done
-    wait_until(lambda: not ours(), 10)
+    wait_until(lambda: not ours())
     return {cell.get("collider", cell["builder"])["name"]: cell for cell in valid("r.json")["cells"]}
 
 
@@ -225,6 +225,15 @@ def test_a_wrong_program_fails_and_the_others_are_measured():
     pathlib.Path("not-executable").write_text("no program")
     for file, sentence in (("nothing", "there is no file 'nothing'"), ("not-executable", "it cannot be started: Permission denied")):
         refused(cells("collide", "--program", file, "--collider", "plain,brute", *QUICK)["plain"], sentence)
+
+
+def test_nothing_that_a_program_started_is_left_and_its_memory_counts():
+    words = ("collide", "--program", PLAIN, "--collider", "plain", *QUICK)
+    for fault in ("children", "daemons"):
+        assert cells(*words, PLUGIN_FAULT=fault)["plain"]["check"]["verdict"] == "agrees"
+        wait_until(lambda: not ours())
+    found = cells("collide", "--program", PLAIN, "--collider", "plain,brute", *QUICK, "--memory-limit", "700M", PLUGIN_FAULT="many-children")
+    refused(found["plain"], "out of host memory: it takes ")
 
 
 def test_what_a_method_cannot_do_is_skipped():

@@ -33,6 +33,20 @@ class Plain:
             os.kill(os.getpid(), signal.SIGSEGV)
         if FAULT == "exit":
             sys.exit("no such device")
+        if FAULT in ("children", "daemons") and os.fork() == 0:
+            if FAULT == "daemons":
+                os.setsid()
+                if os.fork() != 0:
+                    os._exit(0)
+            os.close(1)
+            time.sleep(600)
+        if FAULT == "many-children":
+            for _ in range(4):
+                if os.fork() == 0:
+                    taken = b"x" * (200 << 20)
+                    time.sleep(600)
+                    os._exit(len(taken) == 0)
+            time.sleep(600)
         if FAULT == "close":
             os.close(1)
             time.sleep(600)
