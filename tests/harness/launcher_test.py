@@ -3,6 +3,7 @@
 launcher with a program that prints its words."""
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -83,13 +84,25 @@ def test_a_path_that_builds_do_not_take_is_refused_at_once_but_run_if_it_is_buil
 def test_help_and_version_are_answered_before_anything_is_built():
     root = checkout("nothing", built=False)
     (root / "docs").mkdir()
-    for path in ("docs/help.txt", "CMakeLists.txt"):
+    for path in ("docs/help.txt", "docs/help-of-commands.txt", "CMakeLists.txt"):
         shutil.copy(SOURCE / path, root / path)
-    for word in ("--help", "-h", "--version"):
-        at_once, built = (subprocess.run([program, word], capture_output=True, text=True, timeout=60)
+    listed = (SOURCE / "docs/help.txt").read_text().partition("\nKnow")[2].partition("\nExit codes")[0]
+    commands = re.findall(r"^  ([a-z]+)  ", listed, re.MULTILINE)
+    assert len(commands) > 15, commands
+    for words in (["--help"], ["-h"], ["--version"], *([command, "--help"] for command in commands)):
+        at_once, built = (subprocess.run([program, *words], capture_output=True, text=True, timeout=60)
                           for program in (root / "bvhbench", PROGRAM))
-        assert (at_once.returncode, at_once.stdout, at_once.stderr) == (0, built.stdout, ""), (word, at_once, built)
+        assert (at_once.returncode, at_once.stdout, at_once.stderr) == (0, built.stdout, ""), (words, at_once, built)
     assert not (root / "build").exists()
+
+
+def test_help_builds_nothing_where_the_program_is_older():
+    root = checkout("older")
+    (root / "docs").mkdir()
+    shutil.copy(SOURCE / "docs/help-of-commands.txt", root / "docs")
+    os.utime(root / "build/built", (1, 1))
+    done = subprocess.run([root / "bvhbench", "collide", "--help"], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "ran: collide --help\n", ""), done
 
 
 sys.exit(main(globals()))
