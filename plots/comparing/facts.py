@@ -4,7 +4,7 @@ from typing import Any
 from cells import Cell
 from comparing.refusals import Rules
 from console.cell import depths
-from counters import is_better_smaller, is_exact
+from counters import is_better_smaller, is_exact, is_promised
 from tables import exact
 
 WORST_FIRST = ("failed", "skipped", "differs", "not checked", "counted", "agrees")  # verdicts
@@ -61,7 +61,7 @@ def compare_counters(first: Cell, second: Cell, allow_missing: bool, found: Foun
             found[allow_missing].append(f"no {counter}{'' if why is None else f' ({why})'}, was {exact(value)}")
         elif float(other) != float(value) and is_exact(counter, first):
             is_better = is_better_smaller(counter) and other < value
-            found[is_better].append(f"{counter} {exact(other)}, was {exact(value)}")
+            found[is_better or not is_promised(counter, first)].append(f"{counter} {exact(other)}, was {exact(value)}")
     before, after = first.leaves_by_depth, second.leaves_by_depth
     if before and after and before != after:
         found[1].append(f"leaves by depth {depths(after)}, were {depths(before)}")

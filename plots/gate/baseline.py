@@ -12,7 +12,6 @@ from json_files import Refused, value_of
 from output import WrongUsage
 
 FORMAT = "smoke-1"
-FOUND = ("pairs_count", "contacts_count")  # equal for all versions of a library
 TEXT, NUMBER = {"type": "string"}, {"type": "number"}
 CELL = {"cell": TEXT, "scene": TEXT, "verdict": TEXT, "counters": {"type": "object", "additionalProperties": NUMBER},
         "hashes": {"type": "object", "additionalProperties": TEXT}}
@@ -44,7 +43,7 @@ def same_everywhere(cell: Cell, is_library: bool) -> dict[str, float]:
     returns only counts of pairs and contacts."""
     return {counter: value for counter, value in sorted(cell.counters.items())
             if counters.is_exact(counter, cell) and counter not in counters.SIZED_BY_DEVICE
-            and (counter in FOUND or not is_library)}
+            and (counter in counters.FOUND or not is_library)}
 
 
 def fastest_ns(cell: Cell) -> int:

@@ -61,9 +61,9 @@ def verdicts(first: Raw, second: Raw, **rules: Any) -> list[str]:
     return [each.verdict for each in compared(first, second, **rules).cells]
 
 
-def with_sentences(change: Callable[[Raw], Any], **rules: Any) -> tuple[list[str], list[str]]:
+def with_sentences(change: Callable[[Raw], Any], builder: str = "karras", **rules: Any) -> tuple[list[str], list[str]]:
     """Returns the sentences about a changed cell: regressions, and others."""
-    before = document(cell())
+    before = document(cell(builder))
     after = copy.deepcopy(before)
     change(after["cells"][0])
     only, = compared(before, after, **rules).cells
@@ -315,6 +315,13 @@ class Facts(unittest.TestCase):
         for pairs in (999, 1001):
             self.assertEqual(with_sentences(lambda raw: raw["counters"].update(pairs_count=pairs)),
                              ([f"pairs_count {pairs}, was 1000"], []))
+
+    def test_a_counter_that_no_library_promises_is_told_and_no_regression(self) -> None:
+        for builder, is_ours in (("karras", True), ("embree-low", False), ("fcl-aabb", False), ("embreelike", True)):
+            told = with_sentences(lambda raw: raw["counters"].update(sah_cost=81), builder)
+            self.assertEqual(told, (["sah_cost 81, was 80.25"], [])[::1 if is_ours else -1], builder)
+            self.assertEqual(with_sentences(lambda raw: raw["counters"].update(pairs_count=1001), builder),
+                             (["pairs_count 1001, was 1000"], []), builder)
 
     def test_a_counter_that_is_not_there_is_a_regression_unless_allowed(self) -> None:
         def lose(raw: Raw) -> None:
