@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "builders/input.h"
 #include "collide/pairs.h"
@@ -32,6 +33,14 @@ struct Differences {
 };
 
 Differences differences(const PairList& found, const PairList& right);
+
+/// Sorts the pairs, each with its smaller id first, and returns up to three that are there more than once.
+std::vector<Pair> doubled_pairs(std::vector<Pair>& found);
+
+/// Returns how many pairs are missing and how many are not right, with up to three of each kind and of `doubled`: by their numbers
+/// in the scene's file (`file_faces` as Scene::file_faces), with their objects and boxes.
+std::string examples(const PairList& found, const PairList& right, std::span<const Pair> doubled,
+                     const Input& input, std::span<const uint> file_faces);
 
 /// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once, points of a swept input in both
 /// frames: the least that a narrow phase must read (docs/measuring.md, Bytes moved).

@@ -25,24 +25,26 @@ public:
     {
         const PairFacts facts = facts_of(found);
         // Facts from an earlier run may be wrong. Only the list condemns.
-        if (facts != right.facts().set && facts != right.list().facts.set)
+        if (facts != right.facts().set && facts != right.list().facts.set) {
+            doubled_ = doubled_pairs(found);
             own_.emplace(std::move(found));
+        }
     }
 
     bool is_right() const { return !own_; }
     const PairList& list() const { return own_ ? *own_ : right_.list().list; }
 
     /// Adds differences from the oracle's list to the check.
-    void hold(const std::string& what, Check& check) const
+    void hold(const std::string& what, Check& check, const FrameOfPipelines& frame) const
     {
         if (!own_)
             return;
         const RightFacts& right = right_.list().facts;
-        if (own_->surplus() > 0)
-            check.find_wrong(std::to_string(own_->surplus()) + ' ' + what + " were found twice");
-        else
-            check.find_wrong("the oracle has " + std::to_string(right.set.count) + ' ' + what +
-                             " of the hash " + hex(right.file_hash));
+        check.find_wrong(
+            "the oracle has " + std::to_string(right.set.count) + ' ' + what + " of the hash " +
+            hex(right.file_hash) +
+            examples(*own_, right_.list().list, doubled_, frame.input, frame.file_faces) +
+            "; `collide --" + what + " FILE` writes all that were found");
     }
 
     /// Writes the hash of the list with triangles numbered as in the scene's file. Returns that list if it is wanted, else none.
@@ -60,6 +62,7 @@ public:
 private:
     const Right& right_;
     std::optional<PairList> own_;  ///< if it is not the oracle's
+    std::vector<Pair> doubled_;    ///< some that were found more than once
 };
 
 /// Counts what is missed and what is false, and writes both to the cell's counters. `of` is part of their names.
@@ -107,7 +110,7 @@ void judge_by_list(const Pipeline& pipeline, Cell& cell, const Right& right,
     if (find_box_format(cell.builder.boxes).has_cells())
         hold_candidates(pairs.list(), right.list().list, !pipeline.has_contacts(), cell);
     else
-        pairs.hold("pairs", cell.check);
+        pairs.hold("pairs", cell.check, frame);
     if (!cell.swept.pairs.empty())
         count_errors(pairs.list(), right.list().list, "", cell);
     found.pairs = pairs.in_file(frame, cell.check.pairs_hash);
@@ -153,7 +156,7 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
             const Listed contacts(pipeline.contacts(), right);
             const bool by_collider = pipeline.collider().finds_contacts();
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
-                contacts.hold("contacts", check);
+                contacts.hold("contacts", check, frame);
             else
                 hold_inexact(contacts.list(), right.list().list, !frame.input.is_swept(), cell);
             found.contacts = contacts.in_file(frame, check.contacts_hash);

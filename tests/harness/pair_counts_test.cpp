@@ -18,6 +18,29 @@ TEST(PairDifferences, CountWhatIsMissedAndWhatIsFalse)
     EXPECT_EQ(differences(list({{0, 1}, {1, 0}, {2, 3}, {4, 5}}), right), (Differences{0, 1}));
 }
 
+TEST(PairExamples, NameUpToThreeOfEachKindWithObjectsAndBoxes)
+{
+    const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const std::vector<Face> faces(8, Face{0, 1, 2});
+    const std::vector<uint> file_faces = {10, 11, 12, 13, 14, 15, 16, 17};
+    Input input;
+    input.points = points;
+    input.faces = faces;
+    input.objects = {{0, 2}, {2, 6}};
+    std::vector<Pair> found = {{7, 6}, {0, 1}, {1, 0}, {1, 0}};
+    const std::vector<Pair> doubled = doubled_pairs(found);
+    EXPECT_EQ(doubled, (std::vector<Pair>{{0, 1}}));
+    const PairList right(std::vector<Pair>{{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 5}});
+    const std::string box = ", box 0 0 0 to 1 1 0)";
+    const auto pair = [&](const char* a, const char* b) { return a + box + " and " + b + box; };
+    EXPECT_EQ(examples(PairList(found), right, doubled, input, file_faces),
+              "; 4 missing: " + pair("10 (object 0", "12 (object 1") + ", " +
+                  pair("10 (object 0", "13 (object 1") + ", " +
+                  pair("10 (object 0", "14 (object 1") +
+                  "; 1 extra: " + pair("16 (object 1", "17 (object 1") +
+                  "; 2 found twice: " + pair("10 (object 0", "11 (object 0"));
+}
+
 TEST(CornerBytes, CountEachFaceAndPointOnce)
 {
     const std::vector<Point> points(6);
