@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
 #include "device/device_choice.h"
 #include "device/lifted_limit.h"
@@ -60,6 +63,29 @@ bool ends_loops_early(const Device& device)
     cl_uint found = 0;
     queue.enqueueReadBuffer(word, CL_TRUE, 0, sizeof found, &found);
     return found != expected;
+}
+
+/// Returns a sentence that says where the loader looked for drivers, which variables of the environment change what it finds, and
+/// which package brings a driver.
+std::string no_device()
+{
+    const char* vendors = std::getenv("OCL_ICD_VENDORS");
+    std::string text = "there is no OpenCL device: drivers are named in ";
+    text += vendors != nullptr ? "'" + std::string(vendors) + "' (OCL_ICD_VENDORS)"
+                               : "/etc/OpenCL/vendors";
+    std::string names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             vendors != nullptr ? vendors : "/etc/OpenCL/vendors", error))
+        if (entry.path().extension() == ".icd")
+            names += (names.empty() ? "" : ", ") + entry.path().filename().string();
+    text += ", which " + std::string(error           ? "is no folder"
+                                     : names.empty() ? "has none"
+                                                     : "has " + names);
+    for (const char* variable : {"POCL_DEVICES", "CUDA_VISIBLE_DEVICES", "RUSTICL_ENABLE"})
+        if (const char* value = std::getenv(variable))
+            text += "; " + std::string(variable) + " is '" + value + "'";
+    return text + "; Debian's pocl-opencl-icd brings one for processors";
 }
 
 }  // namespace
@@ -153,15 +179,14 @@ Device open_device(std::string_view words, Sources sources)
         return device;
     }
 
+    if (devices.empty())
+        throw Unavailable(no_device());
     std::string known;
     for (std::size_t i = 0; i < named.size(); ++i)
         known += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + named[i].name;
     throw Unavailable("no OpenCL device matches '" + wanted + "'" +
                       (words.empty() && !wanted.empty() ? " of BVHBENCH_DEVICE" : "") + "; there " +
-                      (devices.empty()       ? "is none"
-                       : devices.size() == 1 ? "is "
-                                             : "are ") +
-                      known);
+                      (devices.size() == 1 ? "is " : "are ") + known);
 }
 
 }  // namespace bvhbench

@@ -108,7 +108,10 @@ def test_samples_with_impossible_times_are_dropped_and_too_many_fail_the_cell():
 
 def test_no_device_is_one_sentence():
     pathlib.Path("no-vendors").mkdir()
-    expect(3, *BUILD, says="; there is none", OCL_ICD_VENDORS=os.getcwd() + "/no-vendors")
+    for vendors, has in ((os.getcwd() + "/no-vendors", "has none"), ("/nonexistent", "is no folder")):
+        expect(3, *BUILD, says=f"there is no OpenCL device: drivers are named in '{vendors}' (OCL_ICD_VENDORS), which {has}; ",
+               OCL_ICD_VENDORS=vendors)
+    expect(3, *BUILD, says="; POCL_DEVICES is 'gpu'; Debian's pocl-opencl-icd brings one", POCL_DEVICES="gpu")
 
 
 def test_killed_at_any_time_it_leaves_a_whole_result_file():
