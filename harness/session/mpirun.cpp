@@ -39,6 +39,19 @@ bool is_program(const std::string& name)
     return false;
 }
 
+/// Throws Unavailable if the folder of Open MPI's session has too little room, with which mpirun waits for ever.
+void require_session_room()
+{
+    constexpr std::uintmax_t needed = std::uintmax_t{16} << 20;  // 8 MiB are too few for two ranks
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    const auto room = error ? std::filesystem::space_info{} : std::filesystem::space(folder, error);
+    if (!error && room.available < needed)
+        throw Unavailable("mpirun keeps its session in '" + folder.string() +
+                          "' (TMPDIR), which has room for " + std::to_string(room.available) +
+                          " bytes, and " + std::to_string(needed) + " are needed");
+}
+
 std::vector<std::string> lines_of(const std::string& text)
 {
     std::vector<std::string> lines;
@@ -136,6 +149,7 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words, double time
     if (!is_program("mpirun"))
         throw Unavailable(
             "mpirun, which starts the ranks, is in no folder of PATH (Debian: openmpi-bin)");
+    require_session_room();
     std::vector<std::string> command = {"setpriv",
                                         "--pdeathsig",
                                         "TERM",

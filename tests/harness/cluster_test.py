@@ -260,6 +260,19 @@ def test_a_rank_that_mpirun_does_not_name_is_said_to_be_lost():
     assert out.returncode == 4 and out.stderr == f"bvhbench: a rank was ended by signal 9 (Killed){UNNAMED}", out
 
 
+def test_too_little_room_for_the_session_is_a_sentence_at_once():
+    disk = pathlib.Path("session").resolve()
+    disk.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk], capture_output=True).returncode:
+        print("  no small disk: this user may not mount one")
+        return
+    try:
+        expect(3, "cluster", "torus:2000", "--ranks", "2", "--share-devices", TMPDIR=str(disk),
+               says=f"mpirun keeps its session in '{disk}' (TMPDIR), which has room for 65536 bytes, and 16777216 are needed")
+    finally:
+        subprocess.run(["umount", disk], check=True)
+
+
 def test_an_mpirun_that_hangs_is_ended():
     deaf = "trap '' TERM"
     # Ranks that wait for their plan, without work for the processor, and end when it is empty.
