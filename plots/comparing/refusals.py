@@ -51,7 +51,15 @@ def require_same_machine(first: Named, second: Named, otherwise: str) -> None:
 def require_file(name: pathlib.Path, document: dict[str, Any], rules: Rules) -> None:
     if not document["cells"]:
         raise WrongUsage(f"{name} has no cells to compare")
+    if any(has_only_zeros(cell) for cell in document["cells"]):
+        raise WrongUsage(f"{name} has launches that took no time: the device's clock was wrong (--clock host takes the host's)")
     require_run(name, document["run"], rules)
+
+
+def has_only_zeros(cell: dict[str, Any]) -> bool:
+    """True for a measured cell of launches of which none took any time, as older versions believed a clock that stood still."""
+    stages = [stage for sample in cell.get("samples", []) for stage in sample["stages"]]
+    return any(stage.get("launches") for stage in stages) and not any(stage.get("span_ns") or stage.get("wall_ns") for stage in stages)
 
 
 def require_run(name: pathlib.Path, run: dict[str, Any], rules: Rules) -> None:

@@ -425,6 +425,8 @@ class Refusals(unittest.TestCase):
                  {"allow_dirty": True}),
                 (lambda raw: raw["run"].update(test_hooks=hooks), "under BVHBENCH_SLOW=karras:2", {"allow_test_hooks": True}),
                 (lambda raw: raw["cells"].clear(), "no cells", None),
+                (lambda raw: [stage.update(span_ns=0) for sample in raw["cells"][0]["samples"] for stage in sample["stages"]],
+                 "b has launches that took no time: the device's clock was wrong", None),
                 (lambda raw: raw.update(format="1.3"), "a has format 1.9 and b 1.3", None),
                 (lambda raw: raw["run"].update(node_costs={"inner": 1, "triangle": 1}), "sah_cost", None),
                 (lambda raw: raw["run"]["device"].update(name="another"), "--other-devices", {"other_devices": True}),
