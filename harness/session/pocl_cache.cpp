@@ -70,7 +70,8 @@ fs::path cache_folder(const char* of)
 {
     if (const fs::path base = variable("XDG_CACHE_HOME"); base.is_absolute())
         return base / "bvhbench" / of;
-    if (const fs::path home = variable("HOME"); home.is_absolute())
+    std::error_code error;
+    if (const fs::path home = variable("HOME"); home.is_absolute() && fs::is_directory(home, error))
         return home / ".cache" / "bvhbench" / of;
     return {};
 }

@@ -9,8 +9,8 @@
 
 namespace bvhbench {
 
-/// Returns the folder of this program's files called `of` below $XDG_CACHE_HOME or ~/.cache; empty if there is no home folder. It
-/// need not exist.
+/// Returns the folder of this program's files called `of` below $XDG_CACHE_HOME or ~/.cache; empty if there is no home folder, which
+/// is not made: Debian gives users without one the name of none. The returned folder need not exist.
 std::filesystem::path cache_folder(const char* of);
 
 /// A writable folder in which PoCL keeps compiled kernels for the lifetime of this object.

@@ -43,6 +43,12 @@ def kept_in(folder: str) -> dict[pathlib.Path, tuple[bytes, int]]:
     return {path: content for path, content in files.items() if path.name != "last_accessed"}
 
 
+def test_a_home_that_is_not_there_is_not_made():
+    home = os.getcwd() + "/no-home"
+    expect(0, *QUICK, says="agrees", HOME=home, XDG_CACHE_HOME="", POCL_CACHE_DIR="")
+    assert not os.path.exists(home)
+
+
 def test_what_is_broken_is_named_and_compiled_again_once_removed():
     whole = kept_in("broken")
     assert {path.name for path in whole} == {"program.bc", "copy_runs.so", "launch_empty.so"}, whole
