@@ -58,7 +58,9 @@ def title(steps: list[Step]) -> str:
     """Returns scene, steps and numbers of pairs, which are the same for all pipelines that have both queries."""
     first = max(steps, key=lambda step: len(step.kinds))
     name, frames = pipelines.scene_name(first.first), len({one.frame for one in first.cells})
-    text = f"{name}, {frames} step{'' if frames == 1 else 's'}: {first.total('pairs_count') * 1e-6:,.1f} M pairs"
+    pairs = first.total("pairs_count")
+    count = f"{pairs * 1e-6:,.1f} M" if pairs >= 1e5 else f"{pairs:,.0f}"
+    text = f"{name}, {frames} step{'' if frames == 1 else 's'}: {count} pairs"
     truth = first.total("ground_truth_pairs")
     return text + (f", {first.total('pairs_count') / truth:,.0f} for each of the ground truth" if truth else "")
 

@@ -18,15 +18,17 @@ def each(run: results.Run) -> str:
 
 def of_pipeline(cells: list[Cell]) -> str:
     has_wall = any(cell.wall_ns for cell in cells)
-    table = Table("frame", *spread.TITLES, *["wall"] * has_wall, "n", "pairs", "contacts", "<verdict")
+    touching = ["touching"] * any("touching_count" in cell.counters for cell in cells)
+    keys = [f"{count}_count" for count in ("pairs", "contacts", *touching)]
+    table = Table("frame", *spread.TITLES, *["wall"] * has_wall, "n", "pairs", "contacts", *touching, "<verdict")
     for cell in cells:
         wall = [duration(cell.wall_ns)] * has_wall
         times = [*spread.of(cell.times_ns()), *wall, str(len(cell.samples))] if cell.has_times else [""] * (6 + has_wall)
-        counts = [whole(cell.counters.get(key)) for key in ("pairs_count", "contacts_count")]
+        counts = [whole(cell.counters.get(key)) for key in keys]
         table.row(str(cell.frame), *times, *counts, one_cell.verdict(cell))
     if len(cells) > 1 and all(cell.has_times for cell in cells):
         later = cells[1:]
-        counts = [whole(mean(later, key, 1, 0.5)) for key in ("pairs_count", "contacts_count")]
+        counts = [whole(mean(later, key, 1, 0.5)) for key in keys]
         table.row("mean of later", duration(sum(cell.median_ns() for cell in later) / len(later)), *[""] * (5 + has_wall), *counts)
     return table.text()
 

@@ -13,7 +13,7 @@ SAT = f"{BVTT}, contacts sat-f32"
 FRONT, FRESH, REFIT = "front over oibvh-multi", "front (always rebuild) over apetrei-fused", "group (always refit) over apetrei-fused"
 RADIX = [f"{name} over apetrei-fused" for name in ("front", "front-leaf", "front (one tree of the scene)",
                                                    "front-leaf (one tree of the scene)")]
-TABLE2 = {"unc_cloth_ball for cloth-ball": "unc_cloth_ball, 15 between", "cloth-funnel:18484 for funnel": "cloth-funnel:18484",
+TABLE2 = {"unc_cloth_ball for cloth-ball": "unc_cloth_ball, 15 between", "unc_cloth_funnel for funnel": "unc_cloth_funnel, 15 between",
           "unc_nbody for n-body": "unc_nbody, 15 between", "cloth-dress:49000 for flamenco": "cloth-dress:49000"}
 TABLE3 = {"cloth-layers:127000 for andy": "cloth-layers:127000", "cloth-ball:18000 for bridson": "cloth-ball:18000",
           "cloth-layers:198000 for bridson-3": "cloth-layers:198000"}

@@ -1,7 +1,7 @@
 from quotes import Document, File, us
 
 HILBERT = "over oibvh-single (hilbert30, sorted leaves)"
-SCENES = ("unc_cloth_ball", "ipc_armadillo_rollers", "unc_nbody")
+SCENES = ("unc_cloth_ball", "ipc_armadillo_rollers", "unc_nbody", "unc_cloth_funnel")
 
 
 def step(file: File, scene: str, asked: str) -> tuple[float, int]:
@@ -43,7 +43,7 @@ def quotes(doc: Document) -> None:
     doc.says("writes {} million pairs per second on `ipc_armadillo_rollers` and {} on\n`unc_cloth_ball`, from two frames' "
              "vertices; `embree` writes {} and {}, "
              "`bvtt` {} and {}, `grid` {} and {}.", *(rate for both in rates.values() for rate in both))
-    doc.says("| pipeline | unc_cloth_ball, {} | | ipc_armadillo_rollers, {} | | unc_nbody, {} |",
+    doc.says("| pipeline | unc_cloth_ball, {} | | ipc_armadillo_rollers, {} | | unc_nbody, {} | | unc_cloth_funnel, {} |",
              *(step(h200, scene, f"group {HILBERT}")[1] for scene in SCENES))
     for label, asked in (("`bvtt` over `oibvh-single`, `hilbert30`, sorted leaves", f"bvtt {HILBERT}"),
                          ("`block` over the same", f"block {HILBERT}"),
