@@ -139,13 +139,16 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryKind, testing::ValuesIn(kinds()), [](const a
 std::string tetrahedra(const std::string& nodes, unsigned vertices = 4, unsigned primitives = 1)
 {
     // Positions are zeros that a sparse accessor changes: three corners, 1.2 from the first.
-    const std::string base64 = "AQACAAMAAACamZk/AAAAAAAAAAAAAAAAmpmZPwAAAAAAAAAAAAAAAJqZmT8AAAEAAgAAAAEAAwAAAAIAAwABAAIAAwA=";
+    const std::string base64 =
+        "AQACAAMAAACamZk/"
+        "AAAAAAAAAAAAAAAAmpmZPwAAAAAAAAAAAAAAAJqZmT8AAAEAAgAAAAEAAwAAAAIAAwABAAIAAwA=";
     std::string list;
     for (unsigned k = 0; k < primitives; ++k)
         list += std::string(k == 0 ? "" : ",") + R"({"attributes": {"POSITION": 0}, "indices": 1})";
     return R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1]}], "nodes": [)" + nodes +
-           R"(], "meshes": [{"primitives": [)" + list + R"(]}], "accessors": [{"componentType": 5126, "count": )" +
-           std::to_string(vertices) + R"(, "type": "VEC3", "sparse": {"count": 3, "indices": {"bufferView": 0, "componentType": 5123},
+           R"(], "meshes": [{"primitives": [)" + list +
+           R"(]}], "accessors": [{"componentType": 5126, "count": )" + std::to_string(vertices) +
+           R"(, "type": "VEC3", "sparse": {"count": 3, "indices": {"bufferView": 0, "componentType": 5123},
 "values": {"bufferView": 0, "byteOffset": 8}}}, {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
 "bufferViews": [{"buffer": 0, "byteLength": 44}, {"buffer": 0, "byteOffset": 44, "byteLength": 24}],
 "buffers": [{"byteLength": 68, "uri": "data:application/octet-stream;base64,)" +
@@ -166,17 +169,22 @@ TEST(Gltf, OfNodesFarAwayIsRecentredInDoubles)
             library);
         EXPECT_TRUE(contains(told, "doubles, recentred by ("));
         EXPECT_LT(scene.rounding.largest_error, 1e-7);
-        return double{scene.frames[0][4].y} - scene.frames[0][2].y;  // from corner to origin, along y
+        return double{scene.frames[0][4].y} -
+               scene.frames[0][2].y;  // from corner to origin, along y
     };
-    EXPECT_NEAR(gap("1335838.5, -4659713.76, 4131346.2", "1335838.2, -4659712.7, 4131345.9"), -0.14, 1e-6);
-    EXPECT_NEAR(gap("1335838.5, -4659713.76, 4131346.2", "1335838.5, -4659712.46, 4131346.2"), 0.1, 1e-6);
+    EXPECT_NEAR(gap("1335838.5, -4659713.76, 4131346.2", "1335838.2, -4659712.7, 4131345.9"), -0.14,
+                1e-6);
+    EXPECT_NEAR(gap("1335838.5, -4659713.76, 4131346.2", "1335838.5, -4659712.46, 4131346.2"), 0.1,
+                1e-6);
 }
 
 TEST(Gltf, KeepsTheVerticesThatTrianglesName)
 {
     const Folder folder;
     const Scene scene = load_scene(
-        folder.file("many.gltf", tetrahedra(R"({"mesh": 0}, {"mesh": 0, "translation": [2, 0, 0]})", 60000, 500)), {});
+        folder.file("many.gltf", tetrahedra(R"({"mesh": 0}, {"mesh": 0, "translation": [2, 0, 0]})",
+                                            60000, 500)),
+        {});
     EXPECT_EQ(scene.faces.size(), 2u * 500u * 4u);
     EXPECT_EQ(scene.frames[0].size(), 8u);  // the primitives of an instance share them
     EXPECT_EQ(scene.objects.size(), 2u);
