@@ -144,7 +144,7 @@ private:
         std::size_t corners = 0;
         for (unsigned k = 0; k < mesh.mNumFaces; ++k)
             corners += mesh.mFaces[k].mNumIndices;
-        return mesh.mNumFaces > 1 && corners == mesh.mNumVertices;
+        return corners == mesh.mNumVertices;
     }
 
     /// Returns the point of a vertex. Vertices of equal position in split meshes of one object have one point.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"
 #include "harness/choice/catalog.h"
@@ -48,6 +49,15 @@ std::vector<std::string> start_outside(const CommonOptions& common)
     for (const std::string& file : common.programs)
         start(file, true);
     return failures;
+}
+
+void refuse_outside(const CommonOptions& common, const std::string& command)
+{
+    if (!plugins_of(common).empty() || !common.programs.empty())
+        throw BadUsage("'" + command +
+                       "' runs this program's own builders and colliders, and what --plugin, "
+                       "--program and BVHBENCH_PLUGINS give takes no part: `smoke` and `run "
+                       "agreement` judge it");
 }
 
 }  // namespace bvhbench

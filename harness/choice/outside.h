@@ -12,4 +12,8 @@ namespace bvhbench {
 /// each that does not start or has a name that is taken; its cells fail with that sentence.
 std::vector<std::string> start_outside(const CommonOptions& common);
 
+/// Throws BadUsage if anything from outside is given to `command`, which runs this program's own builders and colliders only: it would
+/// take no part, and the exit code would say nothing of it.
+void refuse_outside(const CommonOptions& common, const std::string& command);
+
 }  // namespace bvhbench

@@ -5,6 +5,7 @@
 #include "harness/base/failure.h"
 #include "harness/base/table.h"
 #include "harness/base/terminal.h"
+#include "harness/choice/outside.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/judge/check.h"
@@ -147,6 +148,7 @@ public:
 
     int run(const Invocation& invocation) override
     {
+        refuse_outside(invocation.common, "check");
         if (portable_) {
             Session session(invocation.common);
             return check_portable(session, invocation.words);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/error.h"
 #include "harness/base/python.h"
+#include "harness/choice/outside.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/measure/run.h"
@@ -25,6 +26,7 @@ public:
     {
         task_.filter = cell_filter(filter_);
         const CommonOptions& common = invocation.common;
+        refuse_outside(common, "stress");
         Session session(common);
         ResultFile results(Output(out_, "--out", result_rules(common.force, {})),
                            run_facts(session.device(), invocation.words));

@@ -1,4 +1,5 @@
 """bvhbench plot: draws every figure that result files have the cells for."""
+import contextlib
 import pathlib
 
 import command
@@ -22,9 +23,13 @@ def main(words: list[str]) -> int:
     import all  # imported here, so that help does not need matplotlib
 
     folder, files = pathlib.Path(arguments.out), [pathlib.Path(file) for file in arguments.files]
+    is_new = not folder.exists()
     output.make_folder(folder)
     output.check_pictures(folder, files, arguments.force)
     if refusals := all.draw_all(files, folder, arguments.force):
+        if is_new:  # nothing was drawn: nothing is left
+            with contextlib.suppress(OSError):
+                folder.rmdir()
         raise json_files.Refused("; ".join(refusals))
     print(f"drawn into {arguments.out}")
     return 0

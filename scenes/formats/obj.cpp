@@ -35,10 +35,7 @@ public:
             file_.group_of_face.clear();
         }
         list_ignored(ignored_, "line", file_.reading);
-        for (const auto& [word, count] : ignored_)
-            if (std::ranges::find(harmless, word) == harmless.end())
-                file_.reading.surprises.push_back("lines that begin with " + in_quotes(word) +
-                                                  " are not read, " + std::to_string(count));
+        note_unknown();
         return result();
     }
 
@@ -75,6 +72,22 @@ private:
         } else if (!keyword.empty()) {
             ++ignored_[std::string(keyword.substr(0, 20))];
         }
+    }
+
+    /// Notes lines that begin with no word of the format.
+    void note_unknown()
+    {
+        std::size_t lines = 0;
+        std::string first;
+        for (const auto& [word, count] : ignored_)
+            if (std::ranges::find(harmless, word) == harmless.end()) {
+                lines += count;
+                first = first.empty() ? word : first;
+            }
+        if (lines > 0)
+            file_.reading.surprises.push_back(
+                std::to_string(lines) + (lines == 1 ? " line is" : " lines are") +
+                " not read, with " + in_quotes(first) + " where a word of OBJ goes");
     }
 
     /// Returns a line up to a '#' that begins a word.

@@ -13,7 +13,7 @@ from program import PROGRAM, expect, experiment, main, only, valid
 
 PERFECT = "build --builder perfect --scene soup:5"
 SENTENCES = (
-    (2, "", "name a command: list, build"),
+    (2, "", "name a command: list, scene, build"),
     (2, "paint", "paint"),
     (2, "list colours", "there are: builders, colliders, narrow, orders, formats, skips, tuning, scenes, devices, accuracy, experiments"),
     (2, "build --builder x --scene soup:5", "there are: perfect, "),

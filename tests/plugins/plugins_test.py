@@ -154,6 +154,18 @@ def test_wrong_pairs_have_no_time():
     refused(cells(*COLLIDE, PLUGIN_FAULT="false-triangle")["halves"], "it found a pair of 200 and ")
 
 
+def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
+    for words, of in ((("run", "smoke", "--filter", "halves"), "halves"), (("run", "agreement", "--quick", "--filter", "halves"), "halves")):
+        done = run(*words, "--plugin", GOOD, "--out", "gate.json", "--force")
+        assert done.returncode == 0, done
+        assert any(of in (cell["builder"]["name"], cell.get("collider", {}).get("name")) for cell in valid("gate.json")["cells"])
+        done = run(*words, "--plugin", GOOD, "--out", "gate.json", "--force", PLUGIN_FAULT="missed-pair")
+        assert done.returncode == 1, done
+    for command in ("check", "stress"):
+        expect(2, command, "--plugin", GOOD, says=f"'{command}' runs this program's own builders and colliders")
+        expect(2, command, BVHBENCH_PLUGINS=GOOD, says="takes no part: `smoke` and `run agreement` judge it")
+
+
 def test_one_that_hangs_is_ended():
     found = cells(*BUILD, "--time-limit", "2", PLUGIN_FAULT="hang")
     refused(found["halves"], "in `build`: it took longer than 1.9 s and was ended; --time-limit")
