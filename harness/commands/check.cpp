@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <iostream>
 
 #include "geometry/error.h"
@@ -148,12 +149,20 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        refuse_outside(invocation.common, "check");
         if (portable_) {
+            refuse_outside(invocation.common, "check --portable");
             Session session(invocation.common);
             return check_portable(session, invocation.words);
         }
         std::vector<BuilderChoice> builders = chosen_builders(builder_);
+        const auto is_outside = [](const auto& one) {
+            return find_builder(one.name).outside != nullptr;
+        };
+        if (std::ranges::none_of(builders, is_outside))
+            refuse_outside(invocation.common, "check");
+        else if (std::ranges::any_of(collider_catalog(), &ColliderEntry::outside))
+            std::cerr << "colliders from outside take no part in `check`: `smoke` and `run "
+                         "agreement` judge them\n";
         Session session(invocation.common);
         Checker checker(session, std::move(builders));
         if (scene_.empty()) {

@@ -41,6 +41,8 @@ def checked(words: list[str]) -> argparse.Namespace:
         raise WrongUsage(f"--tolerance must be a ratio from {TOLERANCE[0]:g} to {TOLERANCE[1]:g}, not {arguments.tolerance:g}")
     if arguments.update and arguments.filter:
         raise WrongUsage("--update writes the whole baseline, so --filter is not for it")
+    if arguments.update and (arguments.plugin or arguments.program or os.environ.get("BVHBENCH_PLUGINS")):
+        raise WrongUsage("--update writes a baseline of this program's own builders and colliders, without any from outside")
     if arguments.tuning is None:
         arguments.tuning = ""
     return arguments

@@ -161,9 +161,11 @@ def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
         assert any(of in (cell["builder"]["name"], cell.get("collider", {}).get("name")) for cell in valid("gate.json")["cells"])
         done = run(*words, "--plugin", GOOD, "--out", "gate.json", "--force", PLUGIN_FAULT="missed-pair")
         assert done.returncode == 1, done
-    for command in ("check", "stress"):
-        expect(2, command, "--plugin", GOOD, says=f"'{command}' runs this program's own builders and colliders")
-        expect(2, command, BVHBENCH_PLUGINS=GOOD, says="takes no part: `smoke` and `run agreement` judge it")
+    for words in (("check", "--builder", "perfect"), ("check", "--portable"), ("stress",)):
+        expect(2, *words, "--plugin", GOOD, says=f"'{words[0]}")
+        expect(2, *words, BVHBENCH_PLUGINS=GOOD, says="takes no part: `smoke` and `run agreement` judge it")
+    done = run("check", "--builder", "halves", "--plugin", GOOD)
+    assert done.returncode == 0 and done.stderr.startswith("colliders from outside take no part in `check`"), done
 
 
 def test_one_that_hangs_is_ended():
