@@ -56,6 +56,8 @@ def listed(*words: str) -> list[str]:
 
 def test_all_cells_of_an_experiment_are_listed_without_a_device() -> None:
     told = json.loads((SOURCE / "harness/experiments/smoke.json").read_text())
+    told["builders"].remove("outside")  # stands for what is from outside: nothing here
+    told["pipelines"] = [one for one in told["pipelines"] if "outside" not in (one.get("builder"), one["collider"])]
     pipelines = sum(len(one.get("builder", ["none"]) if isinstance(one.get("builder", []), list) else ["one"])
                     * (len(one["collider"]) if isinstance(one["collider"], list) else 1) for one in told["pipelines"])
     names = listed()

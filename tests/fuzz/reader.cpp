@@ -80,6 +80,34 @@ void make_scene(FileMesh file)
     step_facts(scene, file);
 }
 
+/// Reads a folder of two numbered files, the first up to an empty line; and the whole as the frames of a compact sequence.
+[[maybe_unused]] void sequence(const std::string& bytes)
+{
+    static const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("fuzz-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder / "files");
+    std::filesystem::create_directories(folder / "frames");
+    const std::size_t end = std::min(bytes.find("\n\n"), bytes.size());
+    const auto write = [](const std::filesystem::path& file, const std::string& text) {
+        std::ofstream(file, std::ios::binary) << text;
+    };
+    write(folder / "files/f1.obj", bytes.substr(0, end));
+    write(folder / "files/f2.obj", bytes.substr(std::min(end + 2, bytes.size())));
+    write(folder / "frames/mesh.ply",
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+          "float "
+          "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 "
+          "1 0\n3 0 1 2\n");
+    write(folder / "frames/frames.f32", bytes);
+    SceneLibrary library;
+    library.any_topology = library.weld = bytes.size() % 2 == 0;
+    for (const char* const name : {"files", "frames"})
+        try {
+            load_scene((folder / name).string(), library);
+        } catch (const Unavailable&) {
+        }
+}
+
 /// Reads the vertex-face pairs up to an empty line, then the edge-edge pairs.
 [[maybe_unused]] void ground_truth(const std::string& bytes)
 {
