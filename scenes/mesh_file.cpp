@@ -47,6 +47,17 @@ void check_is_file(const std::filesystem::path& path)
         throw Unavailable(path.string() + " is not a file");
 }
 
+/// Throws Unavailable for a triangle that names a vertex that is not there. OBJ's may come before their vertices.
+void check_corners(const Mesh& mesh, const std::string& name)
+{
+    for (std::size_t k = 0; k < mesh.faces.size(); ++k)
+        for (const uint corner : {mesh.faces[k].a, mesh.faces[k].b, mesh.faces[k].c})
+            if (corner >= mesh.points.size())
+                throw Unavailable(name + " has a triangle, " + std::to_string(k) +
+                                  ", with vertex " + std::to_string(corner) + " of " +
+                                  std::to_string(mesh.points.size()));
+}
+
 }  // namespace
 
 std::string file_bytes(const std::filesystem::path& path, std::uint64_t times)
@@ -98,6 +109,7 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& l
     }
     if (file.mesh.faces.empty())
         throw Unavailable(path.string() + " has no triangles");
+    check_corners(file.mesh, path.string());
     cut_polygons(file, path.string());
     return file;
 }

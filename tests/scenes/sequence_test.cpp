@@ -196,6 +196,14 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     EXPECT_NE(changing.with_frame(2).content_hash, changing.with_frame(1).content_hash);
 }
 
+TEST(Sequence, RefusesATriangleOfAVertexThatIsNotThere)
+{
+    const Folder folder;
+    folder.file("f1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    EXPECT_TRUE(
+        contains(refusal(folder.path().string()), "f1.obj has a triangle, 0, with vertex 8 of 3"));
+}
+
 TEST(Sequence, PassesOverFilesOfAnotherFormat)
 {
     const Folder folder;
