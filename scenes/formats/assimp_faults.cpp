@@ -94,6 +94,22 @@ std::string fault_of_collada(std::string_view xml)
     return fault;
 }
 
+/// Returns how many files of a zip archive have a name that ends so, by its central directory.
+std::size_t count_in_zip(std::string_view zip, std::string_view ending)
+{
+    constexpr std::string_view entry = "PK\1\2";
+    constexpr std::size_t length_at = 28, name_at = 46;
+    std::size_t count = 0;
+    for (std::size_t at = zip.find(entry); at != zip.npos; at = zip.find(entry, at + 1)) {
+        if (at + name_at > zip.size())
+            break;
+        const std::size_t length = static_cast<unsigned char>(zip[at + length_at]) +
+                                   256u * static_cast<unsigned char>(zip[at + length_at + 1]);
+        count += zip.substr(at + name_at, length).ends_with(ending) ? 1 : 0;
+    }
+    return count;
+}
+
 }  // namespace
 
 std::string assimp_fault(std::string_view bytes, std::string_view extension)
@@ -102,6 +118,8 @@ std::string assimp_fault(std::string_view bytes, std::string_view extension)
         return fault_of_collada(bytes);
     if (extension == ".amf" && count_of_tags(bytes, "volume") > count_of_tags(bytes, "object"))
         return "it has objects of several volumes, of which assimp reads one";
+    if (extension == ".3mf" && count_in_zip(bytes, ".model") > 1)
+        return "it has several model parts, of which assimp reads one";
     return "";
 }
 

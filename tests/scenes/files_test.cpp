@@ -281,6 +281,11 @@ const Bad bad_files[] = {
      "count=\"4\" "
      "stride=\"4\"/></COLLADA>",
      "an accessor of 4 elements beyond the end of its array of 12 numbers"},
+    {"parts.3mf",
+     "PK\1\2" + std::string(24, 'x') + std::string("\7\0", 2) + std::string(16, 'x') + "a.model" +
+         "PK\1\2" + std::string(24, 'x') + std::string("\7\0", 2) + std::string(16, 'x') +
+         "b.model",
+     "several model parts, of which assimp reads one"},
     {"volumes.amf", "<amf><object><mesh><volume/><volume/></mesh></object></amf>",
      "several volumes"},
     {"notes.txt", "hello", "of a format that is not read, '.txt'"},
