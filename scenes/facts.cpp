@@ -18,7 +18,7 @@ namespace {
 /// Notices are given where a float's step is more than this share of the median edge, and for more pairs a triangle than this.
 constexpr double coarse = 1.0 / 256, many_pairs = 1000;
 
-/// Boxes that are tested for an estimate of pairs, but by so many samples at least.
+/// The most box tests that an estimate of pairs may take, unless the least number of samples needs more.
 constexpr std::size_t most_tests = 200'000'000, least_samples = 16;
 
 using Corners = std::array<uint, 3>;

@@ -14,7 +14,7 @@
 namespace bvhbench {
 namespace {
 
-/// By so many triangles the pairs of a scene are estimated, and so many objects are named.
+/// The number of triangles from which pairs are estimated, and the largest number of objects that the table names.
 constexpr std::size_t sampled_triangles = 1024, most_objects = 8;
 
 std::string short_number(double value)

@@ -26,8 +26,8 @@ constexpr std::string_view read_extensions[] = {"KHR_mesh_quantization",
                                                 "EXT_lights_",
                                                 "KHR_xmp"};
 
-/// A mesh is far away if it is so many times its size from the origin, or so many times its shortest edge, of which floats there hold
-/// eight bits.
+/// A mesh is far away if its distance from the origin is more than 16 times its size, or 2^16 times its shortest edge. Floats at
+/// the second distance resolve 2^8 steps of that edge.
 constexpr double far_from_size = 16, far_from_edge = 65536;
 
 FileNumber number(double x)

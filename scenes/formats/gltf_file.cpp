@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Elements that an accessor may have without bytes, as those whose values are all zero: so many, or as many as the file has bytes.
+/// An accessor without bytes has zeros for values. It may have this many elements, or one for each byte of the file if that is more.
 constexpr std::size_t few_without_bytes = 65536;
 
 /// A type of components. `most` is the value that stands for 1 where integers are normalized.

@@ -54,7 +54,7 @@ public:
     /// Returns the whole number called `key`; nothing if there is none.
     std::optional<std::size_t> whole(const nlohmann::json& of, const char* key) const;
 
-    /// Returns the numbers called `key`, of which there must be as many as in `usual`, or `usual` if there are none.
+    /// Returns the numbers called `key`. Their number must be that of `usual`, which is returned if `key` is missing.
     std::vector<double> numbers(const nlohmann::json& of, const char* key,
                                 std::vector<double> usual) const;
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "helpers.h"
+#include "kinds.h"
 #include "scenes/formats/text.h"
 
 namespace bvhbench {
@@ -19,16 +20,6 @@ constexpr const char* ply_values = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3
 std::string ascii_ply(const std::string& values = ply_values)
 {
     return std::string("ply\nformat ascii 1.0\n") + ply_header + "end_header\n" + values;
-}
-
-template <class T>
-void append(std::string& bytes, T value, bool swapped = false)
-{
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    if (swapped)
-        std::reverse(std::begin(raw), std::end(raw));
-    bytes.append(raw, sizeof raw);
 }
 
 std::string binary_ply(bool big)

@@ -18,16 +18,6 @@ std::string text_of(double x)
     return text;
 }
 
-template <class T>
-void append(std::string& bytes, T value, bool swapped = false)
-{
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    if (swapped)
-        std::reverse(std::begin(raw), std::end(raw));
-    bytes.append(raw, sizeof raw);
-}
-
 template <class... Text>
 std::string one_of(Chance& chance, const Text&... texts)
 {

@@ -4,14 +4,27 @@
 // of 1/4 up to 16, so that floats, decimals and quantised integers hold them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace bvhbench {
+
+/// Appends the bytes of a number, in the order of this machine or swapped.
+template <class T>
+void append(std::string& bytes, T value, bool swapped = false)
+{
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if (swapped)
+        std::reverse(std::begin(raw), std::end(raw));
+    bytes.append(raw, sizeof raw);
+}
 
 struct Model {
     struct Part {

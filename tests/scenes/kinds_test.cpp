@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Each, EveryKind, testing::ValuesIn(kinds()), [](const a
     return name;
 });
 
-/// Returns a glTF file of tetrahedra at the places of its nodes, whose mesh names 4 of `vertices` vertices, by so many primitives.
+/// Returns a glTF file of tetrahedra at the places of its nodes, whose mesh names 4 of `vertices` vertices, once for each of `primitives`.
 std::string tetrahedra(const std::string& nodes, unsigned vertices = 4, unsigned primitives = 1)
 {
     // Positions are zeros that a sparse accessor changes: three corners, 1.2 from the first.

@@ -30,7 +30,7 @@ Scene polygon(const std::vector<Flat>& corners)
     return load_scene(folder.file("a.obj", text + face + "\n"), {});
 }
 
-/// Expects triangles that cover a polygon once: they all turn as it does, and are as large together. If given, so many have area.
+/// Expects triangles that cover a polygon once: they all turn as it does, and are as large together. `with_area` is the number of triangles with area, if it is to be tested.
 void expect_covered(const std::vector<Flat>& corners, std::optional<std::size_t> with_area = {})
 {
     const Scene scene = polygon(corners);
