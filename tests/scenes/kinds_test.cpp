@@ -190,5 +190,23 @@ TEST(Gltf, KeepsTheVerticesThatTrianglesName)
     EXPECT_EQ(scene.objects.size(), 2u);
 }
 
+TEST(Strips, HaveEveryOtherTriangleTurnedRound)
+{
+    const Folder folder;
+    std::string strip = tetrahedra(R"({"mesh": 0}, {})");  // of corners 0 1 2 0 1 3 ...
+    strip.replace(strip.find(R"("indices": 1})"), 13, R"("indices": 1, "mode": 5})");
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+        "float z\n"
+        "element tristrips 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n0 0 1\n6 0 1 2 0 1 3\n";
+    for (const std::string& path : {folder.file("a.gltf", strip), folder.file("a.ply", ply)}) {
+        const Face second = load_scene(path, {}).faces[1];
+        std::array corners = {second.a, second.b, second.c};
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
+        EXPECT_EQ(corners, (std::array{0u, 2u, 1u})) << path;  // the same side as the first
+    }
+}
+
 }  // namespace
 }  // namespace bvhbench
