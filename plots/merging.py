@@ -47,7 +47,8 @@ def source_of(run: Json) -> Json:
     parts = ((run, "id", "id"), (run, "started_at", "started_at"), (run, "finished_at", "finished_at"),
              (run, "command", "command"), (run["program"], "commit", "commit"), (run["program"], "dirty", "dirty"),
              (run["host"], "name", "host"), (run["device"], "name", "device"), (run["device"], "driver", "driver"),
-             (run, "copy_rate_bytes_per_s", "copy_rate_bytes_per_s"), (run, "launch_cost_ns", "launch_cost_ns"))
+             (run, "copy_rate_bytes_per_s", "copy_rate_bytes_per_s"), (run, "launch_cost_ns", "launch_cost_ns"),
+             (run, "conditions", "conditions"))
     return {kept: facts[key] for facts, key, kept in parts if key in facts}
 
 

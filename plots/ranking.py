@@ -4,6 +4,7 @@ Times of cells that lost a race (docs/measuring.md, A race) were taken while the
 later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
 took later.
 """
+import functools
 import math
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +12,6 @@ from dataclasses import dataclass, field
 import numpy
 
 from cells import Cell, counted, elapsed_ns, grouped, median, whole_ns
-from comparing.intervals import rank_below
 from results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
@@ -107,6 +107,17 @@ def ends_of(values: numpy.ndarray) -> tuple[float, float]:
     ascending = numpy.sort(values)
     rank = max(1, rank_below(len(values), ERROR))
     return float(ascending[rank - 1]), float(ascending[len(values) - rank])
+
+
+@functools.cache
+def rank_below(count: int, error: float) -> int:
+    """Returns the largest k for which fewer than k of `count` independent values are below their median with a probability of at
+    most `error` / 2; 0 if `count` is too small."""
+    if count == 0:
+        return 0
+    factorials = numpy.cumsum(numpy.log(numpy.maximum(numpy.arange(count + 1), 1)))  # their logarithms
+    shares = numpy.exp(factorials[-1] - factorials - factorials[::-1] - count * math.log(2))  # with k values below the median
+    return int(numpy.searchsorted(numpy.cumsum(shares), error / 2))
 
 
 def was_beaten(cell: Cell) -> bool:

@@ -58,7 +58,7 @@ public:
         }
         if (results.size() == 0)
             throw BadUsage("--filter: no cell matches '" + filter_ + "'");
-        results.finish(session.programs().compile_ns());
+        results.finish(session.end_of_run());
         progress.clear();
         print_tables(results.text(), common);
         std::cout << results.written();

@@ -60,7 +60,7 @@ public:
         PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept, task.swept);
         watchdog::go_on_with(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
-        results.finish(session.programs().compile_ns());
+        results.finish(session.end_of_run());
         print_tables(results.text(), common);
         for (const std::string& line : contained_)
             std::cout << line << '\n';

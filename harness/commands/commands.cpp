@@ -30,7 +30,7 @@ std::span<const CommandEntry> commands()
         tune_command,
         {"show", looking, "Print a result file as tables"},
         {"compare", looking,
-         "Hold a result file to an earlier one, cell by cell; 1 if anything got worse"},
+         "Compare result files with earlier ones, cell by cell; 1 if anything got worse"},
         {"plot", looking, "Draw every figure that result files have the cells for"},
         {"report", looking,
          "Make one page of result files, and of small scenes in three dimensions"},

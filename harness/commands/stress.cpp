@@ -41,7 +41,7 @@ public:
         });
         if (results.size() == 0)
             throw BadUsage("--filter: no cell of stress matches '" + filter_ + "'");
-        results.finish(session.programs().compile_ns());
+        results.finish(session.end_of_run());
         print_tables(results.text(), common);
         if (!has_fault && all_refused)
             throw NothingMeasured("nothing was measured: " + why_refused);

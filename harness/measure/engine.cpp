@@ -37,7 +37,7 @@ std::vector<Taken> session_samples(Session& session, std::span<const Timed> cell
     std::function<std::int64_t()> calibrate;
     if (plan.rules.until > 0 || plan.samples >= fewest_calibrated)
         calibrate = [&] { return session.calibrate(); };
-    return take_samples(cells, plan, order, calibrate, session.turns());
+    return take_samples(cells, plan, order, calibrate, session.turns(), &session.other_processes());
 }
 
 }  // namespace

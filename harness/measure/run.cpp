@@ -140,9 +140,7 @@ Run::Run(Session& session, Output output, std::vector<std::string> command, cons
 
 void Run::finish()
 {
-    if (const Turns* turns = session_.turns())
-        results_.took_turns({turns->others().begin(), turns->others().end()});
-    results_.finish(session_.programs().compile_ns());
+    results_.finish(session_.end_of_run());
 }
 
 std::vector<std::string> files_of(const std::vector<std::string>& scenes,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "harness/base/table.h"
@@ -10,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Load per hardware thread above which other processes distort times.
-constexpr double much_load = 0.25;
+/// Other processes that want to run, per hardware thread, above which they distort times.
+constexpr double many_others = 0.25;
 
 constexpr const char* usual_governor = "performance";
 
@@ -74,7 +75,7 @@ std::optional<double> load_of(const fs::path& path)
 
 }  // namespace
 
-Json host_conditions(unsigned threads, const std::string& build_type, const fs::path& root)
+Json host_conditions(const std::string& build_type, const fs::path& root)
 {
     const fs::path cpus = root / "sys/devices/system/cpu";
     Json found = Json::object(), warnings = Json::array();
@@ -96,12 +97,19 @@ Json host_conditions(unsigned threads, const std::string& build_type, const fs::
     const auto turbo = turbo_of(cpus);
     put("turbo", turbo, turbo.value_or(false),
         "turbo is on: clocks depend on temperature and on what other cores do");
-    const auto load = load_of(root / "proc/loadavg");
-    put("load", load, load.value_or(0) > much_load * threads,
-        "other processes are running: load " + fixed(load.value_or(0), 1) + " on " +
-            std::to_string(threads) + " threads when it began");
+    if (const auto load = load_of(root / "proc/loadavg"))
+        found["load"] = *load;
     found["warnings"] = std::move(warnings);
     return found;
+}
+
+void put_other_processes(Json& conditions, double mean, unsigned threads)
+{
+    conditions["other_processes"] = std::round(100 * mean) / 100;
+    if (mean > many_others * threads)
+        conditions["warnings"].push_back(
+            "other processes were running between the samples: " + fixed(mean, 1) +
+            " on average, on " + std::to_string(threads) + " threads");
 }
 
 }  // namespace bvhbench

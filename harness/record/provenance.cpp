@@ -153,7 +153,7 @@ Json run_facts(const Device& device, std::vector<std::string> command, const Nod
         run["clock"] = "host";
     run["compile_ns"] = 0;
     run["node_costs"] = {{"inner", costs.inner}, {"triangle", costs.triangle}};
-    run["conditions"] = host_conditions(threads, build_info.build_type);
+    run["conditions"] = host_conditions(build_info.build_type);
     if (const auto hooks = test_hooks(); !hooks.empty())
         run["test_hooks"] = hooks;
     return run;

@@ -134,12 +134,14 @@ void ResultFile::write_if_due()
         write();
 }
 
-void ResultFile::took_turns(const std::vector<std::string>& others) { run_["turns_with"] = others; }
-
-void ResultFile::finish(std::int64_t compile_ns)
+void ResultFile::finish(const EndOfRun& end)
 {
     const std::lock_guard lock(mutex_);
-    run_["compile_ns"] = compile_ns;
+    run_["compile_ns"] = end.compile_ns;
+    if (!end.turns_with.empty())
+        run_["turns_with"] = end.turns_with;
+    if (end.other_processes)
+        put_other_processes(run_["conditions"], *end.other_processes);
     run_["finished_at"] = utc_now();
     write();
 }

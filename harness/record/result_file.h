@@ -17,6 +17,14 @@ namespace bvhbench {
 /// Returns the rules for a result file. A file of the run `own_run` may be replaced without --force.
 OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run = {});
 
+/// What is known of a run only when it ends.
+struct EndOfRun {
+    std::int64_t compile_ns = 0;
+    std::vector<std::string> turns_with = {};  ///< ids of the runs that this run took turns with
+    std::optional<double> other_processes =
+        {};  ///< mean number of them that wanted to run between samples
+};
+
 /// A result file that grows: it is rewritten atomically as cells finish.
 ///
 /// Rewrites are at least half a second apart, so that a run of many short cells does not spend its time on the disk. A process
@@ -42,11 +50,8 @@ public:
     /// Returns the smallest sample order above those of all existing cells.
     int next_order() const { return next_order_; }
 
-    /// Records the runs that this run took turns with.
-    void took_turns(const std::vector<std::string>& others);
-
     /// Records the end of the run and writes the file if it has a cell worth keeping.
-    void finish(std::int64_t compile_ns);
+    void finish(const EndOfRun& end);
 
     /// Returns the number of cells.
     std::size_t size() const { return cells_.size() + stress_.size(); }

@@ -152,12 +152,13 @@ private:
 class Rounds {
 public:
     Rounds(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
-           const std::function<std::int64_t()>& calibrate, Turns* turns)
+           const std::function<std::int64_t()>& calibrate, Turns* turns, OtherProcesses* others)
         : cells_(cells)
         , plan_(plan)
         , order_(order)
         , drift_(plan, calibrate)
         , turns_(turns)
+        , others_(others)
         , random_(static_cast<unsigned>(order))
         , taken_(cells.size())
         , rules_(cells.size(), StoppingRule(plan))
@@ -206,6 +207,8 @@ private:
     void take_round(bool counts)
     {
         const Turns::Turn turn(turns_);
+        if (others_ != nullptr)
+            others_->look();
         std::shuffle(going_.begin(), going_.end(), random_);
         for (const std::size_t i : going_) {
             if (counts)
@@ -279,6 +282,7 @@ private:
     int& order_;
     Drift drift_;
     Turns* turns_;
+    OtherProcesses* others_;
     std::mt19937 random_;
     std::vector<Taken> taken_;
     std::vector<StoppingRule> rules_;
@@ -321,9 +325,10 @@ double whole_ns(const std::vector<StageTime>& stages)
 }
 
 std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
-                                const std::function<std::int64_t()>& calibrate, Turns* turns)
+                                const std::function<std::int64_t()>& calibrate, Turns* turns,
+                                OtherProcesses* others)
 {
-    return Rounds(cells, plan, order, calibrate, turns).run();
+    return Rounds(cells, plan, order, calibrate, turns, others).run();
 }
 
 }  // namespace bvhbench

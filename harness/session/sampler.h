@@ -9,6 +9,7 @@
 #include "device/queue.h"
 #include "harness/choice/sampling.h"
 #include "harness/record/record.h"
+#include "harness/session/other_processes.h"
 #include "harness/session/turns.h"
 
 namespace bvhbench {
@@ -44,12 +45,12 @@ struct Taken {
 /// In a race (race.h) a cell that another one beats stops after a round. Earlier samples were not interleaved, so they do not decide
 /// it, except that a cell with one of them as fast as the best stays.
 ///
-/// With `turns`, each round is one turn among other runs.
+/// With `turns`, each round is one turn among other runs. `others` looks for other processes before each round.
 ///
 /// `order` is the number of samples of the run so far, warm-up included; it is increased.
 std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
                                 const std::function<std::int64_t()>& calibrate = {},
-                                Turns* turns = nullptr);
+                                Turns* turns = nullptr, OtherProcesses* others = nullptr);
 
 /// Returns the error as a sentence that offers the host's clock if the device's is wrong.
 std::string clock_sentence(const BadClock& error);

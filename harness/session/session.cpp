@@ -99,6 +99,14 @@ void Session::take_turns(const std::string& path, const std::string& id)
     turns_.emplace(file, count, id);
 }
 
+EndOfRun Session::end_of_run() const
+{
+    EndOfRun end{.compile_ns = programs_.compile_ns(), .other_processes = other_processes_.mean()};
+    if (turns_)
+        end.turns_with.assign(turns_->others().begin(), turns_->others().end());
+    return end;
+}
+
 std::vector<StageTime> Session::timed(const std::function<std::vector<StageTime>()>& once)
 {
     try {

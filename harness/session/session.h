@@ -13,6 +13,8 @@
 #include "harness/base/common_options.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/sampling.h"
+#include "harness/record/result_file.h"
+#include "harness/session/other_processes.h"
 #include "harness/session/pocl_cache.h"
 #include "harness/session/turns.h"
 #include "scenes/catalog.h"
@@ -59,6 +61,11 @@ public:
     void take_turns(const std::string& path, const std::string& id);
     Turns* turns() { return turns_ ? &*turns_ : nullptr; }
 
+    OtherProcesses& other_processes() { return other_processes_; }
+
+    /// Returns what is known of a run only when it ends.
+    EndOfRun end_of_run() const;
+
     /// Runs one sample and returns its stages. Throws BadClock if their times cannot be true, and what `once` throws.
     std::vector<StageTime> timed(const std::function<std::vector<StageTime>()>& once);
 
@@ -94,6 +101,7 @@ private:
     std::optional<Calibration> calibration_;
     Caches caches_ = Caches::hot;
     std::optional<Turns> turns_;
+    OtherProcesses other_processes_;
     SceneLibrary library_;
     Doubles doubles_asked_ = library_.doubles;
     /// A list, so that choices keep their addresses: builders may refer to their strings.

@@ -6,21 +6,21 @@ import command
 import documents
 import output
 from cells import Cell
-from comparing import axes, cluster, comparison, report
+from comparing import axes, cluster, comparison, report, sides
 from comparing.refusals import Rules, require_comparable
 
 
 def parser() -> command.Parser:
     words = command.Parser(
-        "compare", "Hold a result file to an earlier one, cell by cell; 1 if anything got worse",
-        "Times by an interval of the ratio of medians and by the Mann-Whitney test: SAME, FASTER, SLOWER or UNSURE. Verdicts, "
-        "counters and errors exactly. 1 if anything is slower, larger or wrong, so that CI can gate on it.",
-        [("bvhbench compare before.json after.json", "what got worse?"),
-         ("bvhbench compare before.json after.json --threshold 10% --all", "coarser, and every cell"),
+        "compare", "Compare result files with earlier ones, cell by cell; 1 if anything got worse",
+        "Times by the spread between processes that ran by turns: SAME, FASTER, SLOWER or UNSURE. Verdicts, counters and errors "
+        "exactly. 1 if anything is slower, larger or wrong, so that CI can gate on it.",
+        [("bvhbench compare before.json after.json", "what got worse, but for times?"),
+         ("bvhbench compare before?.json after?.json", "times too: several processes of each"),
+         ("bvhbench compare before?.json after?.json --threshold 10% --all", "coarser, and every cell"),
          ("bvhbench compare peers.json --builders karras,oibvh-single", "two builders in one file")], "docs/comparing.md")
-    words.add_argument("first", metavar="A", type=pathlib.Path, help="the earlier result file")
-    words.add_argument("second", metavar="B", nargs="?", type=pathlib.Path,
-                       help="the later one; with --builders, A if not given")
+    words.add_argument("files", metavar="FILE", nargs="+", type=pathlib.Path,
+                       help="earlier result files, one for each process, and as many later ones; with --builders one may be both")
     words.add_argument("--builders", type=builder_pair, help="as karras,oibvh-single: compare cells of the second builder, in B, "
                        "with those of the first, in A; slower is then no regression, and another answer is")
     words.add_argument("--threshold", type=command.share(10), default="5%",
@@ -43,20 +43,29 @@ def builder_pair(text: str) -> tuple[str, str]:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if arguments.second is None and not arguments.builders:
-        raise output.WrongUsage("B is required: a later result file, or --builders to compare two builders in one file")
-    names = arguments.first, arguments.second or arguments.first
+    files = arguments.files * 2 if len(arguments.files) == 1 and arguments.builders else arguments.files
+    if len(files) % 2:
+        raise output.WrongUsage(f"as many later files are required as earlier ones, and {len(files)} were given; --builders compares two "
+                                "builders in one file")
+    if arguments.builders and len(files) > 2:
+        raise output.WrongUsage("--builders compares cells of one file or two; `bvhbench merge --processes` makes one file of several")
+    half = len(files) // 2
     rules = Rules(threshold=arguments.threshold, allow_missing=arguments.allow_missing, allow_dirty=arguments.allow_dirty,
                   other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks, builders=arguments.builders)
-    if any(map(clusters.kind_of, names)):
-        for name in names:
+    if any(map(clusters.kind_of, files)):
+        for name in files:
             if not clusters.kind_of(name):
                 raise output.WrongUsage(f"{name} is no file of `bvhbench cluster` or `scale`, and the other is")
-        text, regressions = cluster.compare(*((name, clusters.read(name)) for name in names), rules, arguments.all)
+        if half > 1:
+            raise output.WrongUsage("files of `bvhbench cluster` and `scale` are compared one with one")
+        text, regressions = cluster.compare(*((name, clusters.read(name)) for name in files), rules, arguments.all)
         print(text, end="")
         return 1 if regressions else 0
-    first, second = (documents.read(str(name)) for name in names)
-    require_comparable((names[0], first), (names[1], second), rules)
+    parts = [documents.read(str(name)) for name in files]
+    for one, other in zip(range(half), range(half, len(files))):
+        require_comparable((files[one], parts[one]), (files[other], parts[other]), rules)
+    names = files[0], files[half]
+    first, second = sides.side_of(files[:half], parts[:half]), sides.side_of(files[half:], parts[half:])
     if rules.builders:
         first, second = axes.between_builders(names, first, second, rules.builders)
     elif not rules.allow_missing:

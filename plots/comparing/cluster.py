@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 
 import clusters
-from comparing import report, times
+from comparing import report, sides, times
 from comparing.facts import WORST_FIRST, run_remarks
 from comparing.refusals import Rules, machine, require_run, require_same_machine
 from output import WrongUsage
@@ -44,8 +44,7 @@ def compare(first: Named, second: Named, rules: Rules, show_all: bool) -> tuple[
         raise WrongUsage(f"{first[0]} has format {first[1]['format']} and {second[0]} {second[1]['format']}")
     before, after = results_of(first[1]), results_of(second[1])
     regressions = [] if rules.allow_missing else [f"{name}not in B" for name in before if name not in after]
-    changes, rows, timed = [f"{name}only in B" for name in after if name not in before], Table("<stage", "A", "B", "B/A", "own", "between",
-                                                                                              "p", "n", "<"), False
+    changes, rows, timed = [f"{name}only in B" for name in after if name not in before], Table("<stage", *report.COLUMNS[1:]), False
     for name in (name for name in before if name in after):
         pair = before[name], after[name]
         require_pair((first[0], pair[0]), (second[0], pair[1]), rules)
@@ -59,6 +58,9 @@ def compare(first: Named, second: Named, rules: Rules, show_all: bool) -> tuple[
             if stage == "frame" and change.verdict == times.SLOWER and is_same:
                 regressions.append(f"{name}the frame takes {change.ratio.value:.3f} times as long")
     text = (rows.text() if timed else "") + "".join([f"REGRESSION {one}\n" for one in regressions] + [f"changed {one}\n" for one in changes])
+    warnings = dict.fromkeys(warning for name in before if name in after
+                             for warning in sides.warnings_of([before[name]["run"]], [after[name]["run"]]))
+    text = "".join(f"warning: {warning}\n" for warning in warnings) + text
     count = len(regressions)
     return f"{text}{count or 'no'} regression{'s' if count > 1 else ''}\n", count
 
@@ -108,10 +110,11 @@ def time_changes(first: Json, second: Json, rules: Rules) -> Iterator[tuple[str,
     for files without times."""
     if machine(first["run"]) != machine(second["run"]):
         return
-    series = [samples_of(run) for run in (first, second)]
+    series, may_tell = [samples_of(run) for run in (first, second)], not sides.warnings_of([first["run"]], [second["run"]])
     for stage in series[0]:
         if stage in series[1]:
-            yield stage, times.time_change(series[0][stage], series[1][stage], rules.threshold, rules.error)
+            change = times.time_change([series[0][stage]], [series[1][stage]], rules.threshold, rules.error)
+            yield stage, change if may_tell else times.without_verdict(change)
 
 
 def samples_of(run: Json) -> dict[str, numpy.ndarray]:

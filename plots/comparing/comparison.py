@@ -1,16 +1,15 @@
 """Compares two result files cell by cell: what became faster, slower, larger or wrong."""
-import functools
-from collections import Counter
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from cells import Cell, grouped
-from comparing import scenes, times
-from comparing.drift import CellPair
+from cells import Cell, by_stage, grouped, median, times_ns
+from comparing import times
 from comparing.facts import fact_changes, run_remarks
-from comparing.launches import allowance_ns
 from comparing.refusals import Rules
-from comparing.scenes import SceneChange
+from comparing.sides import Sides, sides_of
+
+CellPair = tuple[Cell, Cell]
 
 
 @dataclass
@@ -32,31 +31,27 @@ class ComparedCell:
         return self.time.verdict if self.first.all_samples or self.second.all_samples else times.SAME
 
 
-
 @dataclass
 class Comparison:
     rules: Rules
+    sides: Sides
     cells: list[ComparedCell]  # in the first file's order
     only_first: list[Cell]
     only_second: list[Cell]
     remarks: list[str]  # other differences of the two runs
-    by_turns: bool  # true if the runs took samples in turns, so that drift affects both alike
-    allowance: float = 0  # nanoseconds that a launch may differ by between the runs
-    scenes: list[SceneChange] = field(default_factory=list)  # of scenes with enough cells for a common change
+    withheld: int = 0  # cells that would be FASTER or SLOWER, if there were no warnings
 
-    @functools.cached_property
+    @property
     def error_of_each(self) -> float:
-        """Returns the error allowed for one cell or one scene's common change, after Bonferroni, so that comparisons of hundreds
-        of cells of equal programs rarely fail."""
-        timed = [group_of(cell.first) for cell in self.cells if cell.has_times]
-        return self.rules.error / max(1, len(timed) + sum(count >= scenes.FEWEST_CELLS for count in Counter(timed).values()))
+        """Returns the error allowed for one cell, after Bonferroni, so that comparisons of hundreds of cells of equal programs
+        rarely fail."""
+        return self.rules.error / max(1, sum(cell.has_times for cell in self.cells))
 
     @property
     def regressions(self) -> int:
         if self.rules.builders:
             return sum(bool(cell.regressions) for cell in self.cells)
         return (sum(cell.verdict == times.SLOWER or bool(cell.regressions) for cell in self.cells)
-                + sum(scene.verdict == times.SLOWER for scene in self.scenes)
                 + (0 if self.rules.allow_missing else len(self.only_first)))
 
 
@@ -64,35 +59,42 @@ def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comp
     """Compares two documents that require_comparable accepts."""
     both, only_first, only_second = matched_cells(*([Cell(raw) for raw in document["cells"]] for document in (first, second)))
     cells = [ComparedCell(*pair, *fact_changes(*pair, rules)) for pair in both]
-    runs = first["run"], second["run"]
-    by_turns = all(one["id"] in other.get("turns_with", []) for one, other in (runs, runs[::-1]))
-    comparison = Comparison(rules, cells, only_first, only_second, run_remarks(*runs), by_turns,
-                            0 if rules.builders and runs[0]["id"] == runs[1]["id"] else allowance_ns(runs))
-    groups = grouped((cell for cell in cells if cell.has_times), lambda cell: group_of(cell.first))
-    for _, group in sorted(groups.items()):
+    comparison = Comparison(rules, sides_of(first, second), cells, only_first, only_second, run_remarks(first["run"], second["run"]))
+    for group in grouped((cell for cell in cells if cell.has_times), lambda cell: group_of(cell.first)).values():
         compare_scene(group, comparison)
-    comparison.scenes = scenes.judged(comparison.scenes, rules.threshold)
+    if comparison.sides.warnings:
+        comparison.withheld = sum(cell.verdict in (times.FASTER, times.SLOWER) for cell in cells)
+        for cell in cells:
+            cell.time = times.without_verdict(cell.time)
     return comparison
 
 
 def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
-    rules, error = comparison.rules, comparison.error_of_each
-    pairs = [(cell.first, cell.second) for cell in cells]
-    if rules.builders:
-        against = scenes.each_alone(pairs, comparison.allowance)
-    elif comparison.by_turns:
-        against = scenes.by_turns(pairs)
-    elif rules.other_devices:
-        against = scenes.of_other_devices(pairs)
-    else:
-        against, scene = scenes.beside_the_others(pairs, comparison.allowance, error)
-        comparison.scenes += [scene] if scene else []
-    for cell, series in zip(cells, against.pairs if against else []):
-        cell.time = scenes.change_of(series, "", against, rules.threshold, error)
+    """Compares the times of cells whose pairs of processes vary alike."""
+    rules = comparison.rules
+    whole = [(times_of(cell.first), times_of(cell.second)) for cell in cells]
+    spread = times.spread_of([times.differences(*pair) for pair in whole]) if comparison.sides.in_pairs else None
+    common = 1.0
+    if rules.other_devices:
+        common = math.exp(median([times.log_medians(second).mean() - times.log_medians(first).mean() for first, second in whole]))
+        if len(cells) == 1:
+            return  # it has no other to be compared with
+
+    def change(first: times.Times, second: times.Times) -> times.TimeChange:
+        return times.time_change(first, second, rules.threshold, comparison.error_of_each, spread, common)
+
+    for cell, pair in zip(cells, whole):
+        cell.time = change(*pair)
         stages = [entry["stage"] for entry in cell.first.all_samples[0]["stages"]]
         if len(stages) > 1:
-            cell.stages = {stage: scenes.change_of(series, stage, against, rules.threshold, error)
-                           for stage in stages if len(series[1].times_ns(stage))}
+            of_stages = ((stage, times_of(cell.first, stage), times_of(cell.second, stage)) for stage in stages)
+            cell.stages = {stage: change(one, other) for stage, one, other in of_stages
+                           if all(map(len, one)) and all(map(len, other))}
+
+
+def times_of(cell: Cell, stage: str = "") -> times.Times:
+    """Returns the whole times, or those of a stage, of each process; those during drift too, which affects both sides alike."""
+    return [times_ns(map(by_stage, process.all_samples), stage) for process in cell.processes]
 
 
 def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair], list[Cell], list[Cell]]:

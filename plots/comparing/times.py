@@ -1,80 +1,117 @@
-"""Compares the times of one cell or stage in two files."""
-import functools
+"""Compares the times of one cell or stage in the processes of two sides.
+
+Two processes of one program differ for as long as they run: in where their memory lies, and in what the machine does meanwhile. The
+samples of one process say nothing of that. So each process counts as one value, the logarithm of its median, and the spread of the
+differences between processes that ran beside each other tells which difference chance explains."""
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy
 
-from comparing.intervals import NOTHING_KNOWN, Interval, median_interval, ratio_interval
+from cells import median
+from comparing import student
 
 SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
-FEWEST_SAMPLES = 9  # in each file, for a verdict on times
-MOST_COUNTED = 20  # samples of each file up to which the Mann-Whitney test is exact
+FEWEST_SAMPLES = 9  # of each side, for a verdict
+# The largest ratio that two processes of one program had on a shared host. Without a spread between processes, only a larger
+# one is a change.
+MOST_DRIFT = 1.6
+OFTEN = 0.9  # the smallest change that is told is found this often
+NORMAL, OF_MEDIAN = 1.4826, 1.2533  # standard deviation over median distance; standard error of the median over the mean's
+
+Times = Sequence[numpy.ndarray]  # nanoseconds, an array for each process of a side
+
+
+class Interval(NamedTuple):
+    low: float
+    value: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Spread:
+    """The standard deviation of the differences of a scene's cells between the sides, one difference for each pair of processes, and
+    its degrees of freedom."""
+
+    deviation: float
+    freedom: int
 
 
 @dataclass(frozen=True)
 class TimeChange:
-    """The change of one cell or stage. Medians are in nanoseconds. The ratio is the second median over the first, divided by the
-    scene's common ratio."""
+    """The change of one cell or stage. Medians are in nanoseconds, over all processes of a side. The ratio is the second over the
+    first, divided by the scene's common ratio. `smallest` is the ratio of the smallest change that would be found."""
 
-    first: Interval = NOTHING_KNOWN
-    second: Interval = NOTHING_KNOWN
-    ratio: Interval = NOTHING_KNOWN
-    p: float = 1.0  # of the Mann-Whitney test
-    counts: tuple[int, int] = (0, 0)  # numbers of samples
+    first: float = 0
+    second: float = 0
+    ratio: Interval = Interval(0, 1, math.inf)
+    smallest: float = math.inf
+    counts: tuple[str, str] = ("", "")  # of samples, "60" or "8x60"; empty without samples
     verdict: str = UNSURE
 
 
-def time_change(first: numpy.ndarray, second: numpy.ndarray, threshold: float, error: float,
-                common: Interval = Interval(1, 1, 1), launches: float = 0) -> TimeChange:
-    """Compares times in the order taken; `common` is the ratio shared by the scene's cells, and `launches` the share of the first
-    median that launches may cost more. FASTER and SLOWER require all of: 9 samples in each file, a median ratio beyond the
-    threshold and beyond `launches`, an interval of the ratio without 1, and a Mann-Whitney p below `error`. SAME requires an
-    interval within the threshold. Everything else is UNSURE."""
-    medians = median_interval(first, error), median_interval(second, error)
-    ratio = ratio_interval(ratio_interval(medians[1], medians[0]), common)
-    p, counts = p_value(first, second / common.value), (len(first), len(second))
-    enough = min(counts) >= FEWEST_SAMPLES
-    return TimeChange(*medians, ratio, p, counts, verdict_of(ratio, threshold, launches, p < error) if enough else UNSURE)
+def log_medians(times: Times) -> numpy.ndarray:
+    return numpy.log([max(median(each), 1) for each in times])
 
 
-def p_value(first: numpy.ndarray, second: numpy.ndarray) -> float:
-    """Returns the two-sided p of the Mann-Whitney test: the probability of ranks at least this uneven if both samples had one
-    distribution. It is exact without ties and with at most 20 values each, otherwise the normal approximation with corrections
-    for ties and continuity. It is 1 if a sample is empty."""
-    counts, pairs = (len(first), len(second)), len(first) * len(second)
-    if not pairs:
-        return 1.0
-    ascending = numpy.sort(second)
-    below = sum(numpy.searchsorted(ascending, first, side).sum() for side in ("left", "right")) / 2  # of pairs; equal ones count half
-    most = max(below, pairs - below)
-    _, repeats = numpy.unique(numpy.concatenate((first, second)), return_counts=True)
-    if max(counts) <= MOST_COUNTED and max(repeats) == 1:
-        of_order = orders_by_pairs(*counts)
-        return min(1.0, 2 * sum(of_order[int(most):]) / sum(of_order))
-    size = sum(counts)
-    variance = pairs / 12 * (size + 1 - sum(repeats**3 - repeats) / (size * (size - 1)))
-    distance = most - pairs / 2 - 0.5
-    return min(1.0, math.erfc(distance / math.sqrt(2 * variance))) if variance > 0 else 1.0
+def differences(first: Times, second: Times) -> numpy.ndarray:
+    """Returns the logarithm of the ratio of medians of each pair of processes."""
+    return log_medians(second) - log_medians(first)
 
 
-@functools.cache
-def orders_by_pairs(first: int, second: int) -> list[int]:
-    """Returns how many ways there are to mix two ordered samples of `first` and `second` values, by the number of pairs whose
-    larger value is in the first sample: the coefficients of the Gaussian binomial."""
-    orders = [1] + [0] * (first * second)
-    for k in range(1, first + 1):
-        for pairs in range(first * second, second + k - 1, -1):
-            orders[pairs] -= orders[pairs - second - k]
-        for pairs in range(k, first * second + 1):
-            orders[pairs] += orders[pairs - k]
-    return orders
+def spread_of(cells: Sequence[numpy.ndarray]) -> Spread | None:
+    """Returns the spread of the differences of all cells of a scene; nothing for one pair of processes. The cells of one process
+    deviate together, at a correlation of about 0.7, so that of c cells each adds less than the first: 2 c / (c + 1) in all."""
+    if len(cells[0]) < 2:
+        return None
+    variance = float(numpy.mean([each.var(ddof=1) for each in cells]))
+    return Spread(math.sqrt(variance), (len(cells[0]) - 1) * 2 * len(cells) // (len(cells) + 1))
 
 
-def verdict_of(ratio: Interval, threshold: float, launches: float = 0, differs: bool = True) -> str:
-    smallest = 1 + max(threshold, launches)
-    if differs and ratio.low > 1 and ratio.value >= smallest:
+def time_change(first: Times, second: Times, threshold: float, error: float, spread: Spread | None = None,
+                common: float = 1) -> TimeChange:
+    """Compares two sides. With a `spread` their processes are pairs. FASTER and SLOWER require 9 samples of each side, a ratio beyond
+    the threshold, and an interval of the ratio without 1; SAME an interval within the threshold. Everything else is UNSURE.
+    `error`: that of the interval; `common`: the ratio that all cells of the scene share."""
+    if not all(map(len, first)) or not all(map(len, second)):
+        return TimeChange()
+    middle = float(log_medians(second).mean() - log_medians(first).mean()) - math.log(common)
+    if spread is None:
+        deviation = math.hypot(*(error_of_median(each) for each in (*first, *second)))
+        margin = math.hypot(math.log(MOST_DRIFT), 3 * deviation)
+    else:
+        deviation = max(spread.deviation, float(differences(first, second).std(ddof=1))) / math.sqrt(len(first))
+        margin = student.quantile(error, spread.freedom) * deviation
+    often = 0 if spread is None else student.quantile(2 * (1 - OFTEN), spread.freedom) * deviation
+    ratio = Interval(*(math.exp(max(-700.0, min(700.0, middle + of * margin))) for of in (-1, 0, 1)))
+    counts = counts_of(first), counts_of(second)
+    enough = min(sum(map(len, first)), sum(map(len, second))) >= FEWEST_SAMPLES
+    smallest = math.exp(max(margin, math.log1p(threshold)) + often) if enough else math.inf
+    return TimeChange(median(numpy.concatenate(first)), median(numpy.concatenate(second)), ratio, smallest, counts,
+                      verdict_of(ratio, threshold) if enough else UNSURE)
+
+
+def error_of_median(times: numpy.ndarray) -> float:
+    """Returns the standard error of the logarithm of a median, from the distances to it."""
+    logarithms = numpy.log(numpy.maximum(times, 1))
+    return OF_MEDIAN * NORMAL * median(numpy.abs(logarithms - median(logarithms))) / math.sqrt(len(times))
+
+
+def counts_of(times: Times) -> str:
+    numbers = "-".join(str(count) for count in dict.fromkeys((min(map(len, times)), max(map(len, times)))))
+    return numbers if len(times) == 1 else f"{len(times)}x{numbers}"
+
+
+def verdict_of(ratio: Interval, threshold: float) -> str:
+    if ratio.low > 1 and ratio.value >= 1 + threshold:
         return SLOWER
-    if differs and ratio.high < 1 and ratio.value <= 1 / smallest:
+    if ratio.high < 1 and ratio.value <= 1 / (1 + threshold):
         return FASTER
     return SAME if ratio.low > 1 / (1 + threshold) and ratio.high < 1 + threshold else UNSURE
+
+
+def without_verdict(change: TimeChange) -> TimeChange:
+    """Returns the change as one that is not sure, if it was called faster or slower."""
+    return replace(change, verdict=UNSURE) if change.verdict in (FASTER, SLOWER) else change

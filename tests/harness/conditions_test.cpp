@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "harness/record/provenance.h"
+#include "harness/session/other_processes.h"
 
 namespace bvhbench {
 namespace {
@@ -18,13 +19,10 @@ protected:
         std::filesystem::create_directories((root_ / file).parent_path());
         std::ofstream(root_ / file) << text << '\n';
     }
-    Json found(unsigned threads = 4, const std::string& build = "Release") const
+    Json found(const std::string& build = "Release") const { return host_conditions(build, root_); }
+    std::size_t warnings(const std::string& build = "Release") const
     {
-        return host_conditions(threads, build, root_);
-    }
-    std::size_t warnings(unsigned threads = 4, const std::string& build = "Release") const
-    {
-        return found(threads, build)["warnings"].size();
+        return found(build)["warnings"].size();
     }
 
     const std::filesystem::path root_ =
@@ -64,10 +62,25 @@ TEST_F(Conditions, AreWarnedOfEachByItself)
     EXPECT_EQ(warnings(), 2u);
     put(supplies + "BAT0/status", "Discharging");
     EXPECT_EQ(warnings(), 3u);
-    put("proc/loadavg", "1.10 0.10 0.10 1/99 1");
-    EXPECT_EQ(warnings(4), 4u);
-    EXPECT_EQ(warnings(8), 3u);
-    EXPECT_EQ(warnings(8, "Debug"), 4u);
+    EXPECT_EQ(warnings("Debug"), 4u);
+}
+
+TEST_F(Conditions, CountWhoElseWantsToRunBetweenSamples)
+{
+    OtherProcesses others(root_);
+    others.look();
+    EXPECT_FALSE(others.mean());
+    for (const char* running : {"1", "3", "5"}) {  // the one that looks is one of them
+        put("proc/loadavg", "1.10 0.10 0.10 " + std::string(running) + "/99 1");
+        others.look();
+    }
+    ASSERT_EQ(others.mean(), 2.0);
+    for (const auto& [threads, expected] : {std::pair(8u, 0u), std::pair(7u, 1u)}) {
+        Json conditions = found();
+        put_other_processes(conditions, *others.mean(), threads);
+        EXPECT_EQ(conditions["other_processes"], 2.0);
+        EXPECT_EQ(conditions["warnings"].size(), expected);
+    }
 }
 
 TEST_F(Conditions, DoNotTakeAMousesBatteryForTheHosts)

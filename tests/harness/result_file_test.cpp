@@ -44,7 +44,7 @@ TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)
             for (int i = 0; i < 20; ++i)
                 file.add(fake_cell());
             if (finishes)
-                file.finish(77);
+                file.finish({.compile_ns = 77});
             EXPECT_EQ(file.exit_code(), 0);
             text = file.text();
         }
@@ -66,7 +66,7 @@ TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
         wrong.check.verdict = Check::Verdict::differs;
         file.add(wrong);
         file.add(fake_cell());
-        file.finish(1);
+        file.finish({.compile_ns = 1});
     }
     run["started_at"] = "later";
     ResultFile file({path, "--out", result_rules(false, {}, run["id"])}, run, run["id"]);

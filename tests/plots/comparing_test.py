@@ -13,7 +13,7 @@ from base import Raw  # first: it adds plots to sys.path
 
 import counters
 from cells import Cell
-from comparing import axes, comparison, report
+from comparing import axes, comparison, report, sides
 from comparing.refusals import Rules, require_comparable
 from output import WrongUsage
 
@@ -22,35 +22,41 @@ FOUR = ["karras", "apetrei", "perfect", "oibvh-multi"]
 SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
 
 
-def steady(_: float) -> float:
-    return 1
-
-
-def cell(builder: str = "karras", median_ns: float = 1e6, seed: int = 1, noise: float = 0.02, samples: int = 40,
-         drift: Callable[[float], float] = steady, frame: int = 0, first: int = 0, every: int = 1) -> Raw:
-    """Returns a cell whose whole times scatter about the median, equal for equal seeds. `drift` returns the factor on the time of
-    a sample at a given share of the run."""
+def cell(builder: str = "karras", median_ns: float = 1e6, seed: int = 1, noise: float = 0.02, samples: int = 40, frame: int = 0) -> Raw:
+    """Returns a cell whose whole times scatter about the median, equal for equal seeds."""
     spread = numpy.random.default_rng(seed).normal(0, noise, samples)
     return {"experiment": "trial", "status": "measured", "scene": {"name": "bunny", "frame": frame, "content_hash": "0" * 16},
             "builder": {"name": builder}, "check": {"verdict": "agrees", "pairs_hash": "1" * 16, "tree_hash": "2" * 16},
             "counters": {"sah_cost": 80.25, "pairs_count": 1000}, "leaves_by_depth": [0, 0, 4],
-            "samples": [{"order": first + every * place, "stages": [
-                {"stage": stage, "span_ns": int(median_ns / 2 * math.exp(off) * drift(place / samples)), "launches": 2}
-                for stage in ("sort", "hierarchy")]} for place, off in enumerate(spread)]}
+            "samples": [{"order": place, "stages": [{"stage": stage, "span_ns": int(median_ns / 2 * math.exp(off)), "launches": 2}
+                                                    for stage in ("sort", "hierarchy")]} for place, off in enumerate(spread)]}
 
 
-def document(*cells: Raw, name: str = "run") -> Raw:
+def document(*cells: Raw, name: str = "run", **run: Any) -> Raw:
     return {"format": "1.9", "cells": list(cells), "run": {
-        "id": name, "finished_at": "then",
+        "id": name, "started_at": "then", "finished_at": "then", "command": [],
         "program": {"commit": "c0", "dirty": False, "compiler": "gcc", "build_type": "Release", "arch": "native", "kernels": "embedded"},
         "host": {"name": "host", "cpu": "cpu", "threads": 8, "os": "Linux"},
-        "device": {"name": "device", "platform": "platform", "compute_units": 4, "driver": "1"}}}
+        "device": {"name": "device", "platform": "platform", "compute_units": 4, "driver": "1"}, **run}}
 
 
-def builders(seed: int, drift: Callable[[float], float] = steady, karras: float = 1, samples: int = 100) -> Raw:
-    """Returns cells of six builders on one scene, with interleaved samples. The n-th builder takes n milliseconds."""
-    return document(*(cell(name, 1e6 * (place + 1) * (karras if name == "karras" else 1), 10 * seed + place, 0.02, samples, drift,
-                           first=place, every=len(BUILDERS)) for place, name in enumerate(BUILDERS)), name=f"run {seed}")
+def side_of(processes: list[Raw]) -> Raw:
+    return sides.side_of([pathlib.Path(f"{place}.json") for place in range(len(processes))], processes)
+
+
+def side(seed: int, processes: int = 8, deviation: float = 0.02, slower: dict[str, float] | None = None, all_slower: float = 1,
+         first: int = 0, samples: int = 20) -> Raw:
+    """Returns one side: several processes of six builders on one scene. Each process is slower or faster by a factor that its cells
+    share for the greater part. The n-th of them starts `first` + n minutes after the hour; the n-th builder takes n milliseconds."""
+    random = numpy.random.default_rng(seed)
+    made = []
+    for process in range(processes):
+        shared = random.normal(0, deviation * math.sqrt(0.7))
+        factors = [math.exp(shared + random.normal(0, deviation * math.sqrt(0.3))) * all_slower * (slower or {}).get(name, 1) for name in BUILDERS]
+        made.append(document(*(cell(name, 1e6 * (place + 1) * factor, int(random.integers(1 << 30)), 0.02, samples)
+                               for place, (name, factor) in enumerate(zip(BUILDERS, factors))),
+                             name=f"run {seed}-{process}", started_at=f"2026-01-01T00:{first + process:02}:00Z"))
+    return side_of(made)
 
 
 def compared(first: Raw, second: Raw, **rules: Any) -> comparison.Comparison:
@@ -70,170 +76,84 @@ def with_sentences(change: Callable[[Raw], Any], builder: str = "karras", **rule
     return only.regressions, only.changes
 
 
-def of_processes(*medians_ns: float, seed: int) -> Raw:
-    """Returns a cell with forty samples of each process, which has a median of its own."""
-    whole = cell(samples=0)
-    for process, median_ns in enumerate(medians_ns):
-        own = cell(median_ns=median_ns, seed=seed + process, first=40 * process)["samples"]
-        whole["samples"] += [{**sample, "process": process} for sample in own]
-    return whole | {"processes": [f"run {process}" for process in range(len(medians_ns))]}
-
-
 class Times(unittest.TestCase):
-    def test_of_several_processes_differ_only_by_more_than_processes_do(self) -> None:
-        one, other = of_processes(1e6, 1e6, 1.2e6, seed=1), of_processes(1e6, 1.2e6, 1.2e6, seed=7)
-        self.assertEqual(verdicts(document(one), document(other)), [UNSURE])
-        single = [{**each, "samples": [sample for sample in each["samples"] if sample["process"] == process]}
-                  for each, process in ((one, 0), (other, 1))]
-        self.assertEqual(verdicts(document(single[0]), document(single[1])), [SLOWER])
-
-    def verdict_of(self, factor: float, threshold: float = 0.05, samples: int = 40, noise: float = 0.02) -> str:
-        return verdicts(document(cell(samples=samples, noise=noise)),
-                        document(cell(median_ns=factor * 1e6, seed=2, samples=samples, noise=noise)), threshold=threshold)[0]
-
-    def test_are_told_apart_at_the_threshold(self) -> None:
-        for factor, threshold, expected in ((1, 0.05, SAME), (1.02, 0.05, SAME), (1.1, 0.05, SLOWER), (0.9, 0.05, FASTER),
+    def test_of_processes_by_turns_are_told_apart_at_the_threshold(self) -> None:
+        for factor, threshold, expected in ((1, 0.05, SAME), (1.01, 0.05, SAME), (1.1, 0.05, SLOWER), (0.9, 0.05, FASTER),
                                             (1.1, 0.5, SAME), (1.6, 0.5, SLOWER)):
-            self.assertEqual(self.verdict_of(factor, threshold), expected, (factor, threshold))
+            found = compared(side(1, deviation=0.01), side(2, deviation=0.01, slower={"karras": factor}), threshold=threshold)
+            self.assertEqual([each.verdict for each in found.cells], [SAME, expected, SAME, SAME, SAME, SAME], (factor, threshold))
+            self.assertAlmostEqual(found.cells[1].time.ratio.value, factor, delta=0.02)
 
-    def test_of_few_samples_or_much_noise_are_unsure(self) -> None:
-        self.assertEqual(self.verdict_of(3, samples=8), UNSURE)
-        self.assertEqual(self.verdict_of(3, samples=9), SLOWER)
-        self.assertEqual(self.verdict_of(1.03, noise=0.4), UNSURE)
+    def test_of_all_builders_together_may_be_slower(self) -> None:
+        self.assertEqual(verdicts(side(1), side(2, all_slower=1.2)), [SLOWER] * 6)
 
-    def test_of_many_cells_must_be_surer(self) -> None:
-        many = document(*(cell(seed=frame, frame=frame) for frame in range(100)))
-        self.assertAlmostEqual(compared(many, many).error_of_each, 0.0005)
-        for each in many["cells"]:
-            del each["samples"][9:]
-        self.assertEqual(verdicts(many, many), [UNSURE] * 100)  # nine samples cannot give enough certainty
+    def test_of_processes_that_differ_are_unsure_and_the_smallest_change_is_told(self) -> None:
+        found = compared(side(1, 3, deviation=0.1), side(2, 3, deviation=0.1, slower={"karras": 1.1}))
+        self.assertEqual({each.verdict for each in found.cells}, {UNSURE})
+        smallest = found.cells[1].time.smallest
+        self.assertGreater(smallest, 1.2)
+        self.assertRegex(report.text(found, show_all=True), f"karras .* {100 * (smallest - 1):.0f} % +3x20 +UNSURE")
+        self.assertLess(compared(side(1, 8, 0.01), side(2, 8, 0.01)).cells[1].time.smallest, 1.08)
+
+    def test_of_one_process_a_side_must_differ_by_more_than_processes_do(self) -> None:
+        for factor, expected in ((1, UNSURE), (1.5, UNSURE), (1.8, SLOWER), (0.5, FASTER)):
+            found = compared(document(cell()), document(cell(median_ns=factor * 1e6, seed=2)))
+            self.assertEqual([each.verdict for each in found.cells], [expected], factor)
+        self.assertIn("the spread between processes is not known", report.text(found))
+        noisy = [document(cell(seed=seed, median_ns=ns, samples=9, noise=0.6)) for seed, ns in ((1, 1e6), (2, 1.8e6))]
+        self.assertEqual(verdicts(*noisy), [UNSURE])
+
+    def test_of_sides_one_after_the_other_are_as_those_of_one_process(self) -> None:
+        first = side(1)
+        for after, slower, expected in ((8, 1.4, UNSURE), (8, 1.8, SLOWER), (0, 1.4, SLOWER)):
+            found = compared(first, side(2, slower={"karras": slower}, first=after))
+            self.assertEqual(found.cells[1].verdict, expected)
+            self.assertEqual("did not take turns" in report.text(found), after > 0)
+        self.assertIn("the same number of them", report.text(compared(first, side(2, 7))))
+
+    def test_of_fewer_than_nine_samples_are_unsure(self) -> None:
+        for samples, expected in ((8, UNSURE), (9, SLOWER)):
+            self.assertEqual(verdicts(document(cell(samples=samples)), document(cell(median_ns=3e6, samples=samples))), [expected])
+        self.assertIn("1 have fewer than 9 samples", report.text(compared(document(cell(samples=8)), document(cell()))))
+        self.assertNotIn("bunny", report.text(compared(document(cell(samples=0)), document(cell())), show_all=True))
+
+    def test_under_conditions_that_warn_are_unsure(self) -> None:
+        first, second = side(1), side(2, slower={"karras": 1.3})
+        second["merged_from"][3]["conditions"] = {"warnings": ["the host is on battery"]}
+        found = compared(first, second)
+        self.assertEqual((found.cells[1].verdict, found.withheld, found.regressions), (UNSURE, 1, 0))
+        self.assertIn("warning: B, process 4: the host is on battery\n", report.text(found))
+        self.assertIn("1 cell may have changed, or the warnings are why\nno regression found, ", report.text(found))
+        self.assertIn("SAME", {each.verdict for each in found.cells})
 
     def test_of_all_stages_together_decide_and_each_is_shown(self) -> None:
-        after = document(cell(seed=2))
-        for sample in after["cells"][0]["samples"]:
+        first, second = side(1), side(2)
+        for sample in second["cells"][1]["samples"]:
             sample["stages"][0]["span_ns"] *= 2
-        only, = compared(document(cell()), after).cells
-        self.assertEqual(only.verdict, SLOWER)
-        self.assertAlmostEqual(only.time.ratio.value, 1.5, delta=0.03)
-        self.assertAlmostEqual(only.stages["sort"].ratio.value, 2, delta=0.04)
-        self.assertAlmostEqual(only.stages["hierarchy"].ratio.value, 1, delta=0.02)
-        self.assertEqual(only.stages["sort"].counts, (40, 40))
+        changed = compared(first, second).cells[1]
+        self.assertEqual(changed.verdict, SLOWER)
+        self.assertAlmostEqual(changed.time.ratio.value, 1.5, delta=0.05)
+        self.assertAlmostEqual(changed.stages["sort"].ratio.value, 2, delta=0.06)
+        self.assertAlmostEqual(changed.stages["hierarchy"].ratio.value, 1, delta=0.04)
+        self.assertEqual(changed.stages["sort"].counts, ("8x20", "8x20"))
 
-
-class OfAScene(unittest.TestCase):
-    def test_cells_are_judged_beside_the_others(self) -> None:
-        before = builders(1)
-        all_slower = compared(before, builders(2, lambda _: 1.2))
-        self.assertEqual([each.verdict for each in all_slower.cells], [SAME] * 6)
-        scene, = all_slower.scenes
-        self.assertEqual((scene.verdict, scene.cells), (SLOWER, 6))
-        self.assertAlmostEqual(scene.ratio.value, 1.2, delta=0.01)
-        self.assertEqual(all_slower.regressions, 1)
-        self.assertEqual(verdicts(before, builders(2, lambda _: 1.2, karras=1.15)), [SAME, SLOWER, SAME, SAME, SAME, SAME])
-
-    def test_a_run_that_wavered_as_much_as_it_changed_says_nothing(self) -> None:
-        found = compared(builders(1, lambda at: 1 if at < 0.5 else 1.25), builders(2, lambda _: 1.3))
-        self.assertEqual([scene.verdict for scene in found.scenes], [UNSURE])
-        self.assertEqual(found.regressions, 0)
-
-    def test_cells_that_agree_on_nothing_are_unsure_but_of_what_no_drift_makes(self) -> None:
-        found = compared(document(*map(cell, FOUR)), document(*map(cell, FOUR, (1e6, 1.2e6, 2e6, 5e5))))
-        self.assertEqual([each.verdict for each in found.cells], [UNSURE, UNSURE, SLOWER, FASTER])
-        self.assertEqual(found.scenes[0].verdict, UNSURE)
-
-    def test_runs_by_turns_share_their_drift(self) -> None:
-        def drift(at: float) -> float:
-            return 1 + 0.4 * at + (0.5 if 0.3 < at < 0.6 else 0)
-
-        before, after, slower = builders(1, drift), builders(2, drift, karras=1.08), builders(2, lambda at: 1.1 * drift(at))
-        self.assertEqual(verdicts(before, after)[1], UNSURE)
-        before["run"]["turns_with"] = ["run 2"]
-        self.assertFalse(compared(before, after).by_turns)  # only one of them lists the other
-        for other in (after, slower):
-            other["run"]["turns_with"] = ["run 1"]
-        found = compared(before, after)
-        self.assertEqual([each.verdict for each in found.cells], [SAME, SLOWER, SAME, SAME, SAME, SAME])
-        self.assertAlmostEqual(found.cells[1].time.ratio.value, 1.08, delta=0.01)
-        self.assertEqual(verdicts(before, slower), [SLOWER] * 6)  # nothing else can explain it
-
-    def test_samples_are_compared_that_were_taken_at_like_speed(self) -> None:
-        def at_speeds(seed: int, fast_of_ten: int) -> Raw:
-            of_two = builders(seed)
-            for each in of_two["cells"]:
-                for place, sample in enumerate(each["samples"]):
-                    sample["calibration_ns"] = 1000 if place % 10 < fast_of_ten else 1500
-                    for stage in sample["stages"]:
-                        stage["span_ns"] *= sample["calibration_ns"] // 500
-            return of_two
-
-        found = compared(at_speeds(1, 7), at_speeds(2, 4))
-        self.assertEqual([each.verdict for each in found.cells], [SAME] * 6)
-        self.assertEqual(found.cells[0].time.counts, (70, 40))
-        self.assertAlmostEqual(found.scenes[0].ratio.value, 1, delta=0.01)
-        self.assertEqual(verdicts(at_speeds(1, 10), at_speeds(2, 0)), [UNSURE] * 6)  # they have no speed in common
+    def test_of_one_build_alarm_rarely_and_a_slower_builder_is_found(self) -> None:
+        pairs = [(side(3 * seed, samples=9), side(3 * seed + 1, samples=9), side(3 * seed + 2, samples=9, slower={"karras": 1.1}))
+                 for seed in range(40)]
+        alarms = sum(any(verdict in (SLOWER, FASTER) for verdict in verdicts(before, after)) for before, after, _ in pairs)
+        self.assertLessEqual(alarms, 3)  # 5 % are allowed without the threshold
+        found = sum(compared(before, slow).cells[1].verdict == SLOWER for before, _, slow in pairs)
+        self.assertGreaterEqual(found, 36)
 
     def test_only_ratios_count_on_other_devices(self) -> None:
         before = document(*map(cell, FOUR, (1e6, 2e6, 1e6), (1, 3, 5)))
         after = document(*map(cell, FOUR, (1e5, 2e5, 3e5), (2, 4, 6)))
         after["cells"][0]["counters"]["sah_cost"] += 1
         found = compared(before, after, other_devices=True)
-        self.assertEqual([each.verdict for each in found.cells], [SAME, SAME, SLOWER])
+        self.assertEqual([each.verdict for each in found.cells], [UNSURE, UNSURE, SLOWER])
+        self.assertAlmostEqual(found.cells[0].time.ratio.value, 1, delta=0.02)
         self.assertEqual(found.cells[0].regressions, [])
         self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # alone
-
-
-class OfOneBuild(unittest.TestCase):
-    """Two runs of one program on a machine whose speed drifts slowly, and whose launches cost 0.7 or 5.7 us in a whole scene."""
-
-    def run_of(self, random: numpy.random.Generator, slowed: float = 1) -> Raw:
-        cells = []
-        for scene, work in (("tiny", 1e4), ("large", 1e6)):
-            drift = [random.normal(0, 0.05)]
-            while len(drift) < 30:
-                drift.append(0.95 * drift[-1] + random.normal(0, 0.05 * math.sqrt(1 - 0.95**2)))
-            launches = 15 * random.choice((700, 5700))
-            for place, name in enumerate(BUILDERS):
-                times = (work * (1 + place) * (slowed if (scene, name) == ("large", "karras") else 1) + launches)
-                times = times * numpy.exp(random.normal(0, 0.05, 30) + drift)
-                cells.append({**cell(name, first=place, every=6), "samples": [
-                    {"order": 6 * number + place, "stages": [{"stage": "hierarchy", "span_ns": int(ns), "launches": 15}]}
-                    for number, ns in enumerate(times)]})
-                cells[-1]["scene"] = {**cells[-1]["scene"], "name": scene}
-        made = document(*cells)
-        made["run"] |= {"launch_cost_ns": 700}
-        made["run"]["device"]["kind"] = "cpu"
-        return made
-
-    def test_alarms_are_rare_and_a_slower_builder_is_found(self) -> None:
-        random = numpy.random.default_rng(3)
-        alarms = sum(compared(self.run_of(random), self.run_of(random)).regressions > 0 for _ in range(30))
-        self.assertLessEqual(alarms, 4)  # 5 % are allowed: more than 4 of 30 have a probability of 1 %
-        found = sum(compared(self.run_of(random), self.run_of(random, 1.8)).cells[7].verdict == SLOWER for _ in range(6))
-        self.assertGreaterEqual(found, 5)
-
-    def test_of_times_that_launches_explain_nothing_is_told(self) -> None:
-        def tiny(ns: float, **facts: Any) -> Raw:
-            made = document(*(cell(name, ns, seed) for seed, name in enumerate(BUILDERS)))
-            made["run"] |= {"launch_cost_ns": 1000, **facts}
-            made["run"]["device"]["kind"] = "cpu"
-            return made
-
-        before, after = tiny(20e3), tiny(50e3)  # 4 launches may cost 40 us more
-        found = compared(before, after)
-        self.assertEqual(([scene.verdict for scene in found.scenes], found.regressions), ([UNSURE], 0))
-        self.assertEqual([scene.verdict for scene in compared(after, before).scenes], [UNSURE])
-        for factor, verdict in ((2.5, UNSURE), (4, SLOWER)):
-            changed = copy.deepcopy(before)
-            for sample in changed["cells"][1]["samples"]:
-                for stage in sample["stages"]:
-                    stage["span_ns"] *= factor
-            self.assertEqual(verdicts(before, changed)[1], verdict)
-        after["run"]["device"]["kind"] = "gpu"
-        before["run"]["device"]["kind"] = "gpu"  # 4 launches may cost 2 us more
-        self.assertEqual([scene.verdict for scene in compared(before, after).scenes], [SLOWER])
-        for run in (before, after):
-            del run["run"]["launch_cost_ns"]  # as before format 1.5
-        self.assertEqual([scene.verdict for scene in compared(before, after).scenes], [SLOWER])
 
 
 class TwoBuilders(unittest.TestCase):
@@ -244,13 +164,13 @@ class TwoBuilders(unittest.TestCase):
         return compared(*axes.between_builders(self.PATHS, first, second, names), builders=names)
 
     def test_of_one_file_or_two_are_compared(self) -> None:
-        both = document(cell("karras"), cell("perfect", 5e5, seed=2), cell("apetrei"))
-        alone = document(cell("karras")), document(cell("perfect", 5e5, seed=2))
+        both = document(cell("karras"), cell("perfect", 4e5, seed=2), cell("apetrei"))
+        alone = document(cell("karras")), document(cell("perfect", 4e5, seed=2))
         for first, second in ((both, both), alone):
             found = self.held(first, second)
             only, = found.cells
             self.assertEqual((only.verdict, found.regressions), (FASTER, 0))
-            self.assertAlmostEqual(only.time.ratio.value, 0.5, delta=0.02)
+            self.assertAlmostEqual(only.time.ratio.value, 0.4, delta=0.02)
             self.assertIn("bunny: perfect against karras", report.text(found))
             self.assertIn("1 cell of perfect against karras: 0 SAME, 1 FASTER", report.text(found))
         self.assertEqual(self.held(both, both, "perfect,karras").regressions, 0)  # slower is no regression
@@ -402,7 +322,7 @@ class Cells(unittest.TestCase):
         self.assertLess(text.index("perfect"), text.index("apetrei"))
         self.assertLess(text.index("apetrei"), text.index("oibvh-multi"))
         self.assertNotIn("karras", text)
-        self.assertIn("4 cells: 1 SAME, 1 FASTER, 2 SLOWER, 0 UNSURE at 5.0 %\n2 regressions\n", text)
+        self.assertIn("4 cells: 0 SAME, 1 FASTER, 1 SLOWER, 2 UNSURE at 5.0 %\n1 regression found, 2 cells unsure\n", text)
         self.assertIn("karras", report.text(compared(first, second), show_all=True))
 
 

@@ -142,7 +142,7 @@ class Compared(unittest.TestCase):
         text, regressions = self.compared(True)
         self.assertEqual((regressions, text.splitlines()[-1]), (0, "no regression"))
         frame, *stages = [line.split() for line in text.splitlines()[1:-1]]
-        self.assertEqual((frame[0], frame[-1]), ("frame", "SAME"))
+        self.assertEqual((frame[0], frame[-1]), ("frame", "UNSURE"))
         self.assertEqual([row[0] for row in stages], ["build", "boxes", "select", "exchange", "self", "halo"])
 
     def test_another_answer_is_a_regression_whatever_the_ranks(self) -> None:
@@ -168,6 +168,14 @@ class Compared(unittest.TestCase):
         self.second["partition"] = "curve"  # asked for, so slower is no regression
         self.assertEqual(self.compared()[1], 1)
 
+    def test_a_frame_that_is_slower_under_conditions_that_warn_is_no_regression(self) -> None:
+        for sample in self.second["ranks"][0]["samples"]:
+            sample["whole_ns"] *= 2
+        self.second["run"].setdefault("conditions", {})["warnings"] = ["the host is on battery"]
+        text, regressions = self.compared()
+        self.assertEqual(regressions, 0)
+        self.assertRegex(text, "^warning: B: the host is on battery\\n(.*\\n)*frame .* UNSURE\\n")
+
     def test_refuses_what_cannot_be_compared(self) -> None:
         self.second["scene"]["name"] = "grid:4"
         with self.assertRaisesRegex(WrongUsage, "a is of torus:67108864 and b of grid:4"):
@@ -185,7 +193,7 @@ class Compared(unittest.TestCase):
 
     def test_files_of_scale_are_compared_cell_by_cell(self) -> None:
         self.first, self.second = clusters.read(HALO), clusters.read(HALO)
-        self.assertEqual(self.compared(allow_dirty=True), ("no regression\n", 0))
+        self.assertRegex("%s%d" % self.compared(allow_dirty=True), r"(warning: .*\n)+no regression\n0$")
         self.second["runs"][0]["result"]["ranks"][0]["halo_sent_count"] += 1
         del self.second["runs"][1]
         text, regressions = self.compared(allow_dirty=True)

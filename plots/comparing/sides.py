@@ -1,0 +1,54 @@
+"""The two sides of a comparison. A side is the result file of one process, or of several that ran the same command."""
+import json
+import pathlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from merging import merge, source_of
+
+Document = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Sides:
+    """What is known of how the processes of two sides ran."""
+
+    in_pairs: bool  # the n-th processes of both sides ran beside each other or one after the other
+    why: str  # why there is no spread between processes; empty if there is
+    warnings: list[str]  # what may have distorted the times of a process
+
+
+def side_of(files: Sequence[pathlib.Path], documents: Sequence[Document]) -> Document:
+    """Returns one document with the samples of all. Raises WrongUsage for files that are not of one command."""
+    if len(files) == 1:
+        return documents[0]
+    named = [(str(file), document) for file, document in zip(files, documents)]
+    return json.loads(merge(named, processes=True).text)
+
+
+def processes_of(document: Document) -> list[Document]:
+    """Returns what is kept of each process, in the order of the cells' samples."""
+    sources = {source["id"]: source for source in document.get("merged_from") or [source_of(document["run"])]}
+    order = next((cell["processes"] for cell in document["cells"] if "processes" in cell), list(sources))
+    return [sources[name] for name in order if name in sources]
+
+
+def warnings_of(first: list[Document], second: list[Document]) -> list[str]:
+    """Returns what the processes of both sides warn of: "B, process 2: the host is on battery"."""
+    return [f"{side}{f', process {number}' if len(processes) > 1 else ''}: {warning}"
+            for side, processes in (("A", first), ("B", second)) for number, process in enumerate(processes, 1)
+            for warning in process.get("conditions", {}).get("warnings", [])]
+
+
+def sides_of(first: Document, second: Document) -> Sides:
+    one, other = processes_of(first), processes_of(second)
+    is_several = all(any("processes" in cell for cell in document["cells"]) for document in (first, second))
+    why = ""
+    if not is_several or len(one) != len(other):
+        why = "the spread between processes is not known, for which each side needs the same number of them, two or more"
+    else:
+        starts = [[each.get("started_at", "") for each in pair] for pair in zip(one, other)]
+        if any(max(before) > min(after) for before, after in zip(starts, starts[1:])):
+            why = "the processes of both sides did not take turns, so the machine may have changed between the sides"
+    return Sides(not why, why, warnings_of(one, other))
