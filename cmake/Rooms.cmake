@@ -1,5 +1,12 @@
+# Sets the variable to all files below the folder that end in one of these ways, and looks again at each build.
+function(files_of variable)
+    list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/*." OUTPUT_VARIABLE patterns)
+    file(GLOB_RECURSE found RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" CONFIGURE_DEPENDS ${patterns})
+    set(${variable} ${found} PARENT_SCOPE)
+endfunction()
+
 # add_room(<name> [NEEDS <room>...] [OWNS <prefix>...] [LIBRARIES <target>...]
-#          [FLOORS <folder>...] [SOURCES <file>...] [ALONE <file>...] [HEADERS <file>...] [KERNELS <file>...])
+#          [FLOORS <folder>...] [ALONE <file>...] [ELSEWHERE <start>...] [KERNEL_HEADERS <file>...])
 #
 # A room is a folder, a library and a rule. Its files include, by path from the source root, only their own headers and
 # those of the rooms in NEEDS. Headers of an external library (<CL/...>, <assimp/...>) are included only by rooms that OWN
@@ -13,10 +20,21 @@
 # ALONE lists sources that are compiled alone there too: those that a test program has its own of, or that need what a program that
 # never calls them is not linked with.
 #
-# KERNELS lists all kernel files: .cl entry points and the headers that they include.
-# cmake/KernelChecks.cmake checks the syntax of each entry point.
+# Sources, headers and kernels are what the folder has. ELSEWHERE are paths, or beginnings of paths, whose sources other targets
+# compile or that need an optional library. KERNEL_HEADERS lists the C headers that kernels include, besides all .cl and .clh files.
+# cmake/KernelChecks.cmake checks the syntax of each .cl file.
 function(add_room name)
-    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;FLOORS;SOURCES;ALONE;HEADERS;KERNELS")
+    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;FLOORS;ALONE;ELSEWHERE;KERNEL_HEADERS")
+    files_of(room_SOURCES cpp)
+    files_of(room_HEADERS h)
+    foreach(start IN LISTS room_ELSEWHERE)
+        list(FILTER room_SOURCES EXCLUDE REGEX "^${start}")
+        list(FILTER room_HEADERS EXCLUDE REGEX "^${start}")
+    endforeach()
+    list(REMOVE_ITEM room_SOURCES ${room_ALONE})
+    files_of(room_KERNELS cl clh)
+    list(APPEND room_KERNELS ${room_KERNEL_HEADERS})
+    list(SORT room_KERNELS)
     if(room_SOURCES)
         add_library(${name} STATIC ${room_SOURCES} ${room_ALONE})
         set_target_properties(${name} PROPERTIES UNITY_BUILD_MODE GROUP)
