@@ -11,9 +11,9 @@
 
 namespace bvhbench {
 
-HeldScene::HeldScene(const std::function<void()>& measure)
+HeldScene::HeldScene(Session& session, const std::function<void()>& measure) : session_(session)
 {
-    Engine::other_sampler = [this](std::span<Subject> settled) {
+    session.other_sampler.sample = [this](std::span<Subject> settled) {
         if (leaves_)
             return;
         static_cast<void>(Progress(0));  // clears the line, so that results begin one
@@ -34,7 +34,7 @@ HeldScene::~HeldScene()
     leaves_ = true;
     sampled_.release();
     thread_.join();
-    Engine::other_sampler = {};
+    session_.other_sampler.sample = {};
 }
 
 void HeldScene::go_on()
@@ -59,7 +59,7 @@ Cells::Cells(const CommonOptions& common, Plan& plan)
     : session_(common), plan_(plan), run_(session_, Output(), {}, {})
 {
     watchdog::go_on_with({});  // after a crash another process could not continue
-    Engine::is_wanted = [this](const Cell& cell) {
+    session_.other_sampler.is_wanted = [this](const Cell& cell) {
         return std::ranges::any_of(plan_.cells, [&](const PlannedCell& planned) {
             return planned.scene == scene_ && planned.is_wanted && planned.is(cell);
         });
@@ -92,7 +92,8 @@ std::string Cells::run(benchmark::State& state, PlannedCell& planned, const std:
         planned.is_wanted = true;
         scene_ = planned.scene;
         held_.reset();
-        held_ = std::make_unique<HeldScene>([this] { run_.experiment(plan_.scenes[scene_]); });
+        held_ = std::make_unique<HeldScene>(session_,
+                                            [this] { run_.experiment(plan_.scenes[scene_]); });
         subject = find(planned);
     }
     if (subject != nullptr)

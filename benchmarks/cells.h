@@ -17,7 +17,7 @@ namespace bvhbench {
 
 /// A call of the harness that waits where it would sample. The harness loads a scene, settles its cells and samples them in one
 /// call, but Google Benchmark calls a function for each repetition of a cell, in any order. Therefore the call has a thread of its
-/// own, which waits while the cells are sampled outside: only one of the two threads works at any time. One object may exist.
+/// own, which waits while the cells are sampled outside: only one of the two threads works at any time. A session has one at a time.
 class HeldScene {
 public:
     std::span<Subject>
@@ -25,7 +25,7 @@ public:
     std::string failure;  ///< why the call threw; empty if it did not
 
     /// Begins the call and waits until it has settled cells or ended.
-    explicit HeldScene(const std::function<void()>& measure);
+    HeldScene(Session& session, const std::function<void()>& measure);
     ~HeldScene();  ///< lets the call end
     HeldScene(const HeldScene&) = delete;
     HeldScene& operator=(const HeldScene&) = delete;
@@ -34,6 +34,7 @@ public:
     void go_on();
 
 private:
+    Session& session_;
     bool leaves_ = false;  ///< whether the call is to end without further waiting
     std::binary_semaphore settled_{0}, sampled_{0};
     std::thread thread_;

@@ -13,13 +13,6 @@
 namespace bvhbench {
 namespace {
 
-// To add an experiment, add its file to harness/experiments/ and its name here.
-constexpr std::string_view names[] = {
-    "table1",   "table4",   "fig8",      "fig13",    "peers",        "quality",   "orders",
-    "scaling",  "refit",    "equality",  "smoke",    "table2",       "table3",    "pairs",
-    "rebuild",  "families", "agreement", "native",   "native-pairs", "yardstick", "wide",
-    "roofline", "swept",    "skips",     "builders", "rivals",       "headlines"};
-
 /// Reads the keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
 {
@@ -134,7 +127,17 @@ Experiment experiment_of(const Json& json, bool quick)
 
 }  // namespace
 
-std::span<const std::string_view> experiment_names() { return names; }
+std::span<const std::string_view> experiment_names()
+{
+    static constexpr std::string_view files[] = {BVHBENCH_EXPERIMENTS};  // "agreement.json", ...
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> found;
+        for (const std::string_view file : files)
+            found.push_back(file.substr(0, file.find('.')));
+        return found;
+    }();
+    return names;
+}
 
 Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick)
 {
@@ -153,7 +156,7 @@ Experiment find_experiment(const std::string& name_or_path, bool quick)
         return parse_experiment(*text, name_or_path, quick);
     if (!name_or_path.ends_with(".json"))
         throw BadUsage("no experiment is called '" + name_or_path + '\'' +
-                       there_are(name_or_path, names, "or the path of a .json file"));
+                       there_are(name_or_path, experiment_names(), "or the path of a .json file"));
     return parse_experiment(file_text(name_or_path, "the experiment file"), name_or_path, quick);
 }
 

@@ -62,7 +62,8 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
 {
     if (std::string why = watchdog::given_up(subject.number); !why.empty())
         return refuse(subject, Cell::Status::failed, std::move(why));
-    if (is_wanted && !is_wanted(subject.cell))
+    if (const auto& is_wanted = session_.other_sampler.is_wanted;
+        is_wanted && !is_wanted(subject.cell))
         return refuse(subject, Cell::Status::skipped, "not wanted");
     const watchdog::Hand hand(subject.number);
     subject.cell.warm_up = plan_.warm_up;
@@ -178,6 +179,7 @@ std::vector<Cell> Engine::sample(std::span<Subject> subjects)
 {
     const std::vector<Caches>& kinds = plan_.rules.caches;
     std::vector<std::vector<Cell>> sampled(kinds.size(), std::vector<Cell>(subjects.size()));
+    const auto& other_sampler = session_.other_sampler.sample;
     if (other_sampler)
         other_sampler(subjects);
     for (std::size_t kind = 0; kind < kinds.size() && !other_sampler; ++kind)

@@ -64,11 +64,6 @@ public:
     /// those that lost a race. Returns a cell for each subject and kind of caches; one that fails once has failed with all.
     std::vector<Cell> sample(std::span<Subject> subjects);
 
-    /// If set, sample() calls this instead, for a program with a sampler of its own (benchmarks/).
-    static inline std::function<void(std::span<Subject>)> other_sampler = {};
-    /// If set, settle() skips cells for which it returns false.
-    static inline std::function<bool(const Cell&)> is_wanted = {};
-
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
     void refuse(Subject& subject, Cell::Status status, std::string reason);
 

@@ -5,6 +5,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@
 #include "scenes/catalog.h"
 
 namespace bvhbench {
+
+struct Subject;
+
+/// The sampler of a program with one of its own (benchmarks/). Empty functions leave it to the engine (measure/engine.h).
+struct OtherSampler {
+    std::function<void(std::span<Subject>)> sample = {};  ///< samples subjects that are ready
+    std::function<bool(const Cell&)> is_wanted = {};      ///< whether a cell is prepared at all
+};
 
 /// The objects that a command works with: one device, its compiled programs, its queue, and builders that are made once.
 class Session {
@@ -60,6 +69,8 @@ public:
     /// BadUsage or Unavailable.
     void take_turns(const std::string& path, const std::string& id);
     Turns* turns() { return turns_ ? &*turns_ : nullptr; }
+
+    OtherSampler other_sampler;
 
     OtherProcesses& other_processes() { return other_processes_; }
 

@@ -24,7 +24,7 @@ SENTENCES = (
     (2, "collide --builder perfect --collider x --scene soup:5", "there are: leaf, "),
     (2, "collide --builder perfect --collider leaf --scene soup:5 --pairs p.txt", "to .csv or .bin"),
     (4, "collide --builder median-split --collider leaf --scene soup:5", "leaf needs a tree in device memory"),
-    (2, "run nothing", "there are: table1, table4, fig8, fig13, peers, quality"),
+    (2, "run nothing", "there are: agreement, builders, equality"),
     (2, "run tabel1", "did you mean 'table1'?"),
     (2, "biuld", "no command is called 'biuld'; did you mean 'build'?"),
     (2, "build --bulider x", "there is no option --bulider; did you mean --builder?"),
