@@ -6,6 +6,7 @@ Usage: sources_test.py rooms <source root> <rooms.json>
        sources_test.py exactness <source root> <compile_commands.json>
        sources_test.py docs <source root>
        sources_test.py format <source root> <clang-format>
+       sources_test.py budget <source root>
 
 rooms: every #include follows the rules written by cmake/Rooms.cmake.
 exactness: nothing permits a compiler to fuse, reorder or approximate arithmetic, in kernels or on the host.
@@ -14,6 +15,7 @@ docs: everything that documents name exists: paths in backticks, unless their li
 links to other documents; GoogleTest names in backticks, as in `Suite.Test`. In sources, keys such as [Chitalu2020] have an
 entry in docs/references.md.
 format: every source and kernel is formatted by clang-format.
+budget: no room has more lines of code than its line in CONTRIBUTING.md allows, by more than 3 %.
 """
 import json
 import pathlib
@@ -26,6 +28,7 @@ CHECK, ROOT, MORE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), "".join(sy
 LIBRARY = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "cluster", "library", "library_cluster")
 ALL = (*LIBRARY, "scenes", "plugins", "harness", "benchmarks", "examples", "tests")
 SOURCES = (".h", ".cpp", ".cl", ".clh")
+CODE = (*SOURCES, ".c", ".cu", ".py", ".js", ".css", ".sh")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 
 PRAGMA = "#pragma OPENCL FP_CONTRACT OFF"
@@ -164,7 +167,29 @@ def format() -> Iterator[str]:
     yield from subprocess.run([MORE, "--dry-run", "--Werror", *paths], stderr=subprocess.PIPE, text=True, check=False).stderr.splitlines()
 
 
+def code_lines(path: pathlib.Path) -> int:
+    """Returns the number of lines that are neither blank nor comment nor, in Python, a docstring."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix in (".py", ".sh"):
+        text = re.sub(r'^\s*"""(?:.|\n)*?"""\n', "", text, flags=re.MULTILINE)
+        text = re.sub(r"^\s*#.*\n", "", text, flags=re.MULTILINE)
+    else:
+        text = re.sub(r"/\*(?:.|\n)*?\*/|^\s*//.*", "", text, flags=re.MULTILINE)
+    return sum(bool(line.strip()) for line in text.splitlines())
+
+
+def budget() -> Iterator[str]:
+    table = re.findall(r"^\| `(\w+)` \| ([\d,]+) \|$", (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8"), re.MULTILINE)
+    allowed = {room: int(lines.replace(",", "")) for room, lines in table}
+    for room in (*ALL, "plots"):
+        found = sum(map(code_lines, files(room, kinds=CODE)))
+        if room not in allowed:
+            yield f"{room}: {found:,} lines of code, and CONTRIBUTING.md has no line of it"
+        elif found > 1.03 * allowed[room]:
+            yield f"{room}: {found:,} lines of code, and CONTRIBUTING.md allows {allowed[room]:,}"
+
+
 if __name__ == "__main__":
-    findings = list({"rooms": rooms, "exactness": exactness, "docs": docs, "format": format}[CHECK]())
+    findings = list({"rooms": rooms, "exactness": exactness, "docs": docs, "format": format, "budget": budget}[CHECK]())
     print("\n".join(findings) or f"{CHECK}: nothing found")
     sys.exit(bool(findings))
