@@ -125,22 +125,22 @@ TEST_F(QueueOf, TakesTheHostsClockIfTheDeviceSays)
     Device by_host = device;
     by_host.host_clock = true;
     Programs own(by_host);
-    Queue queue(by_host);
-    EXPECT_NO_THROW(check_clocks(own, queue));
+    Queue own_queue(by_host);
+    EXPECT_NO_THROW(check_clocks(own, own_queue));
     const cl::Buffer memory(device.context, CL_MEM_READ_WRITE, 4096);
     for (const char* stage : {"first", "second"}) {
-        queue.begin(stage);
-        queue.clear(memory, 4096);
+        own_queue.begin(stage);
+        own_queue.clear(memory, 4096);
     }
-    const std::vector<StageTime> stages = queue.finish();
-    EXPECT_NO_THROW(queue.check_times());
+    const std::vector<StageTime> stages = own_queue.finish();
+    EXPECT_NO_THROW(own_queue.check_times());
     ASSERT_EQ(stages.size(), 2u);
     for (const StageTime& stage : stages) {
         EXPECT_GT(stage.span_ns, 0);
         EXPECT_EQ(stage.busy_ns, stage.span_ns);
     }
     EXPECT_GE(stages[1].start_ns, stages[0].span_ns);
-    EXPECT_LE(stages[1].start_ns + stages[1].span_ns, queue.wall_ns());
+    EXPECT_LE(stages[1].start_ns + stages[1].span_ns, own_queue.wall_ns());
 }
 
 TEST_F(Yardsticks, CopyAtARateFromTheSamplesTheyName)
