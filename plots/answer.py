@@ -1,5 +1,5 @@
 """The answer that a ranking gives: which builder or pipeline to take, how much faster it is than the next family, which others are
-no slower within noise, and the command that measures it alone."""
+no slower within noise, and the command that measures it alone. Warns of methods from outside whose stages leave out most of their time."""
 import shlex
 from collections.abc import Sequence
 
@@ -8,10 +8,12 @@ import names
 import terminal
 from cells import Cell
 from ranking import Ranking, Row, ranked
-from tables import duration, size
+from tables import counted, duration, size
 
 UNIT = {"frame": "a frame", "query": "a query", "build": "a build", "memory": ""}
 MOST_TIED = 3  # that the sentence names
+MOST_WARNINGS = 5
+BY_WALL = " by the wall clock"
 QUESTION = ("adjacent", "narrow", "pairs_of")  # options of a collider that change what is found
 
 
@@ -83,7 +85,8 @@ def next_words(found: Ranking) -> str:
     rival = others[0] if others else next((row for row in found.rows[1:] if not row.tied), None)
     if rival is None or rival.tied:
         return ""
-    name = rival.first.collider if families.of_collider(rival.first.collider or "") else rival.first.builder
+    has_tree = rival.first.builder != "none" and families.of_collider(rival.first.collider or "") is None
+    name = rival.first.builder if has_tree else rival.first.collider
     who = f"the next family (`{name}`)" if others else f"the next, {beside(rival.first, best.first)}"
     by = rival.ratio / best.ratio if best.ratio > 0 else rival.ratio
     if found.objective == "memory":
@@ -126,11 +129,25 @@ def sentence(found: Ranking) -> str:
     if len(found.scenes) > 1:
         what = "memory" if found.objective == "memory" else "time"
         amount = f"{number(best.ratio)} times the {what} of each scene's best, in the geometric mean over {len(found.scenes)} scenes"
+        amount += BY_WALL * (found.by_wall and what == "time")
     elif found.objective == "memory":
         amount = f"{size(best.bytes)} and {duration(best.ns)} {'a build' if best.first.collider is None else 'a frame'}"
+        amount += BY_WALL * found.by_wall
     else:
-        amount = f"{duration(best.ns)} {UNIT[found.objective]}"
+        amount = f"{duration(best.ns)} {UNIT[found.objective]}{BY_WALL * found.by_wall}"
     return f"take {called(best.first)}: {amount}{next_words(found)}{tied_words(found)}{error_words(best)}."
+
+
+def warnings(cells: Sequence[Cell]) -> list[str]:
+    """Returns a sentence for each cell from outside whose stages leave out most of the time of its calls (Cell.leaves_out)."""
+    found = [cell for cell in cells if cell.leaves_out]
+    said = [f"{cell.label}: its stages take {duration(cell.median_ns())}, and {duration(cell.wall_ns)} pass by the wall clock"
+            for cell in found[:MOST_WARNINGS]]
+    return said + [f"the same of {counted(len(found) - MOST_WARNINGS, 'more cell')}"] * (len(found) > MOST_WARNINGS)
+
+
+def warning_lines(cells: Sequence[Cell]) -> str:
+    return "".join(terminal.prose(f"warning: {said}") + "\n" for said in warnings(cells))
 
 
 def of_cells(cells: Sequence[Cell]) -> str:

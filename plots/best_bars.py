@@ -21,10 +21,14 @@ BYTES = (("tree", "tree_bytes", "#009E73"), ("scratch", "scratch_bytes", "#56B4E
          ("narrow phase", "narrow_bytes", "#D55E00"))
 # The name of each part of a frame, by its colour.
 PARTS = {colour: names.part(stages, names.STAGES) for stages, colour in frames.PARTS} | {frames.BETWEEN: names.BETWEEN}
+REST = ("in no stage", frames.BETWEEN)  # of the wall clock
 Part = tuple[str, str, float]  # name, colour, milliseconds or megabytes
 
 
-def parts_of(row: Row, objective: str) -> list[Part]:
+def parts_of(row: Row, objective: str, by_wall: bool) -> list[Part]:
+    if by_wall and objective != "memory":
+        parts = [part for part in parts_of(row, objective, False) if part[1] != frames.BETWEEN]
+        return [*parts, (*REST, 1e-6 * row.ns - sum(width for _, _, width in parts))]
     if objective == "memory":
         return [(name, colour, 1e-6 * row.mean(counter)) for name, counter, colour in BYTES if row.mean(counter) > 0]
     shown = pipelines.Pipeline(row.first.scene, row.cells)
@@ -35,9 +39,9 @@ def parts_of(row: Row, objective: str) -> list[Part]:
     return [part for part in parts if part[2] > 0]
 
 
-def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, label: Callable[[Row], str]) -> set[tuple[str, str]]:
+def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, label: Callable[[Row], str]) -> set[tuple[str, str]]:
     """Draws the bars of one scene and returns the names and colours of their parts."""
-    drawn = [parts_of(row, objective) for row in rows]
+    drawn = [parts_of(row, objective, by_wall) for row in rows]
     wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns for row, parts in zip(rows, drawn)]
     limit = frames.MOST * wholes[0]
     unit = "MB" if objective == "memory" else "ms"
@@ -56,14 +60,15 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
     heights = [len(rows) + 2.2 for rows in scenes]
     drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(heights) + 0.9), squeeze=False,
                                  height_ratios=heights, layout="constrained")
-    there = set().union(*(draw_scene(axes, rows, found.objective, label) for axes, rows in zip(grid[:, 0], scenes)))
+    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label) for axes, rows in zip(grid[:, 0], scenes)))
     what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
-        [(name, colour) for colour, name in PARTS.items()]
+        [*((name, colour) for colour, name in PARTS.items()), REST]
     handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
     height = figure.legend_above(drawing, handles)
     remarks = [*remarks, "Ratios are to the first bar; = is no worse within noise."]
+    remarks += ["Times are by the wall clock: some are from outside."] if found.by_wall and found.objective != "memory" else []
     scaled = any(row.scale != 1 for rows in scenes for row in rows)
     remarks += ["Times of the beaten are scaled to those of the best."] if scaled else []
     remarks += [frames.SHORTENED] if any(row.ratio > frames.MOST for rows in scenes for row in rows) else []

@@ -10,6 +10,7 @@ import names
 
 Item = TypeVar("Item")
 OF_SCENE = {"frame": 0, "stand_in_for": "", "objects_by": "", "between": 0}  # what distinguishes scenes of one name; defaults
+MESSAGES_NS = 100_000  # least time that is put down to the messages of a method from outside
 Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in which stages ran
 
 
@@ -146,6 +147,12 @@ class Cell:
     def wall_ns(self) -> float:
         """Returns the median of walls_ns, or 0."""
         return median(self.walls_ns())
+
+    @property
+    def leaves_out(self) -> bool:
+        """True if the stages of a method from outside are less than half of the wall clock less the round trip (docs/plugins.md)."""
+        round_trip = max(self.counters.get("round_trip_ns", 0), MESSAGES_NS)
+        return bool(self.outside) and self.has_times and 2 * self.median_ns() < self.wall_ns - round_trip
 
     @functools.cached_property
     def processes(self) -> "list[Cell]":

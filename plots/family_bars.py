@@ -30,7 +30,7 @@ def refits_outside(row: ranking.Row) -> bool:
 
 
 def draw(experiment: str, run: results.Run) -> figure.plt.Figure:
-    found = ranking.ranked(run.frames(experiment))
+    found = ranking.ranked(run.frames(experiment), trusts_stages=True)
     firsts = {scene: answer.best_of_families([row for row in rows if not refits_outside(row)]) for scene, rows in found.scenes.items()}
     return best_bars.draw(run, dataclasses.replace(found, scenes=firsts), label, (REMARKS[experiment],))
 

@@ -6,6 +6,7 @@ import figure
 import results
 import style
 from cells import Cell, grouped
+from ranking import is_by_wall, middle_of
 from tables import counted, duration
 
 MOST_SCENES, MOST_BARS = 12, 24  # drawn; a remark counts the others
@@ -19,9 +20,11 @@ def draws_of(run: results.Run) -> dict[str, figure.Draw]:
 
 
 def bars_of(run: results.Run) -> dict[tuple[str, str, str], list[Bar]]:
-    """Returns the bars of each panel: those of an experiment, a scene and an operation, the shortest first."""
+    """Returns the bars of each panel: those of an experiment, a scene and an operation, the shortest first. They are by the wall clock if
+    a method from outside is among the cells."""
     timed = [cell for cell in run.cells if cell.has_times and cell.operation != "accuracy"]
-    return {key: sorted(((name, float(numpy.mean([cell.median_ns() for cell in cells])), cells[0])
+    middle = middle_of(timed)
+    return {key: sorted(((name, float(numpy.mean(list(map(middle, cells)))), cells[0])
                          for name, cells in grouped(those, lambda cell: cell.pipeline).items()), key=lambda bar: bar[1])
             for key, those in grouped(timed, lambda cell: (cell.experiment, cell.scene, cell.operation)).items()}
 
@@ -36,7 +39,8 @@ def draw(run: results.Run) -> figure.plt.Figure:
     for axes, (key, bars) in zip(grid.flat, panels):
         draw_panel(axes, *key, bars[:MOST_BARS])
         left_out += [f"{key[1]}: {len(bars) - MOST_BARS} slower ones not drawn."] if len(bars) > MOST_BARS else []
-    grid.flat[-1].set_xlabel("milliseconds, median of the samples; of several frames the mean of their medians")
+    clock = " by the wall clock" if is_by_wall(cell for _, bars in panels for _, _, cell in bars) else ""
+    grid.flat[-1].set_xlabel(f"milliseconds{clock}, median of the samples; of several frames the mean of their medians")
     figure.footer(drawing, run, panels[0][0][0], tuple(left_out))
     return drawing
 

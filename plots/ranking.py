@@ -1,17 +1,21 @@
 """Ranks builders or pipelines by time or by an amount, over one scene or several.
 
+Times are those of the stages. If one of the cells is from outside, all times are by the wall clock: a method from outside says itself
+what its stages took, and bvhbench measures its calls.
+
 Times of cells that lost a race (docs/measuring.md, A race) were taken while the machine may have been faster or slower than
 later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
 took later.
 """
 import functools
 import math
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy
 
-from cells import Cell, counted, elapsed_ns, grouped, median, whole_ns
+from cells import Cell, Sample, counted, elapsed_ns, grouped, median, whole_ns
 from results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
@@ -63,6 +67,7 @@ class Row:
 @dataclass
 class Ranking:
     objective: str
+    by_wall: bool  # times are by the wall clock
     rows: list[Row]  # best first
     scenes: dict[str, list[Row]]  # of each scene
     wrong: list[Cell]  # cells whose answer is wrong; they are in no row
@@ -94,12 +99,38 @@ def sah_of(cell: Cell) -> float:
 AMOUNTS = {"memory": bytes_of, "cost": sah_of, "error": lambda cell: cell.counters.get("relative_error", math.nan)}
 
 
-def values_of(samples: Iterable[dict], objective: str) -> numpy.ndarray:
-    """Returns the nanoseconds of each sample that count for the objective."""
-    if objective == "query":
-        return numpy.array([sum(elapsed_ns(stage) for name, stage in sample.items() if name in OF_QUERY)
-                            for sample in samples], float)
-    return numpy.array([whole_ns(sample) for sample in samples], float)
+def is_by_wall(cells: Iterable[Cell]) -> bool:
+    """True if the cells are compared by the wall clock, because one is from outside."""
+    return any(cell.outside for cell in cells)
+
+
+def stages_ns(sample: Sample, of_query: bool) -> int:
+    """Returns the sum of the stages that follow the tree, or of the others."""
+    return sum(elapsed_ns(stage) for name, stage in sample.items() if (name in OF_QUERY) == of_query)
+
+
+class Measure(NamedTuple):
+    """What cells are compared by."""
+
+    objective: str
+    by_wall: bool
+
+    def values(self, cell: Cell) -> numpy.ndarray:
+        """Returns the nanoseconds of each sample that count. A query by the wall clock is what the tree's stages leave of the sample.
+        Samples before format 1.11 have no wall clock: their stages count."""
+        of_query = self.objective == "query"
+        if self.by_wall:
+            walls = [raw.get("wall_ns", whole_ns(sample)) for raw, sample in zip(counted(cell.all_samples), cell.samples)]
+            return numpy.array([wall - of_query * stages_ns(sample, False) for wall, sample in zip(walls, cell.samples)], float)
+        return numpy.array([stages_ns(sample, True) if of_query else whole_ns(sample) for sample in cell.samples], float)
+
+    def middle(self, cell: Cell) -> float:
+        return median(self.values(cell))
+
+
+def middle_of(cells: Iterable[Cell]) -> Callable[[Cell], float]:
+    """Returns the function that gives the time by which one of these cells is compared with the others."""
+    return Measure("frame", is_by_wall(cells)).middle
 
 
 def ends_of(values: numpy.ndarray) -> tuple[float, float]:
@@ -124,30 +155,27 @@ def was_beaten(cell: Cell) -> bool:
     return cell.raw.get("sampling", {}).get("stopped") == "beaten"
 
 
-def middle_until(cell: Cell, order: float, objective: str) -> float:
-    """Returns the median of the cell's samples up to the given order, or its first sample's value."""
-    until = [sample for sample, raw in zip(cell.samples, counted(cell.all_samples)) if raw["order"] <= order]
-    return median(values_of(until or cell.samples[:1], objective))
-
-
 class Frame:
     """All cells of one frame, and the one that the others are compared with."""
 
-    def __init__(self, cells: list[Cell], objective: str) -> None:
-        self.objective = objective
+    def __init__(self, cells: list[Cell], measure: Measure) -> None:
+        self.measure = measure
         stayed = [cell for cell in cells if not was_beaten(cell)] or cells
-        self.base = min(stayed, key=self.middle)
+        self.base = min(stayed, key=measure.middle)
 
-    def middle(self, cell: Cell) -> float:
-        return median(values_of(cell.samples, self.objective))
+    def base_until(self, order: float) -> float:
+        """Returns the median of the base's samples up to the given order, or its first sample's value."""
+        values = self.measure.values(self.base)
+        until = [value for value, raw in zip(values, counted(self.base.all_samples)) if raw["order"] <= order]
+        return median(until or values[:1])
 
     def level(self, cell: Cell) -> float:
         """Returns the cell's median, as it would have been while the frame's best cell was sampled."""
-        own = self.middle(cell)
+        own = self.measure.middle(cell)
         if not was_beaten(cell) or cell is self.base:
             return own
-        beside = middle_until(self.base, counted(cell.all_samples)[-1]["order"], self.objective)
-        return own * self.middle(self.base) / beside if beside > 0 else own
+        beside = self.base_until(counted(cell.all_samples)[-1]["order"])
+        return own * self.measure.middle(self.base) / beside if beside > 0 else own
 
 
 def method(cell: Cell) -> tuple[Hashable, ...]:
@@ -155,43 +183,44 @@ def method(cell: Cell) -> tuple[Hashable, ...]:
     return *cell.key("operation", "builder", "collider", "caches"), cell.accuracy.get("method")
 
 
-def interval_of(cell: Cell, objective: str) -> tuple[float, float, float]:
+def interval_of(cell: Cell, measure: Measure) -> tuple[float, float, float]:
     """Returns the median and the ends of its interval, which also holds the medians of all processes that samples are from."""
-    values = values_of(cell.samples, objective)
-    ends = [*ends_of(values), *(median(values_of(one.samples, objective)) for one in cell.processes)]
+    values = measure.values(cell)
+    ends = [*ends_of(values), *map(measure.middle, cell.processes)]
     return median(values), min(ends), max(ends)
 
 
-def margins(row: Row, objective: str) -> tuple[float, float, float]:
+def margins(row: Row, measure: Measure) -> tuple[float, float, float]:
     """Returns the sum of the medians of the row's cells, and by how much its interval goes below and above it."""
-    parts = [interval_of(cell, objective) for cell in row.cells]
+    parts = [interval_of(cell, measure) for cell in row.cells]
     return (sum(middle for middle, _, _ in parts), math.hypot(*(middle - low for middle, low, _ in parts)),
             math.hypot(*(high - middle for middle, _, high in parts)))
 
 
-def is_tied(row: Row, best: Row, objective: str) -> bool:
+def is_tied(row: Row, best: Row, measure: Measure) -> bool:
     """True if the intervals of both overlap or the times hardly differ. Few samples tell only what is far apart."""
     if row is best:
         return True
     if not row.complete:
         return False
-    if objective not in AMOUNTS and row.ratio < 1 + LEAST:
+    if measure.objective not in AMOUNTS and row.ratio < 1 + LEAST:
         return True
     if any(was_beaten(cell) for cell in row.cells):
         return False
     if min(len(cell.samples) for cell in row.cells + best.cells) < FEWEST:
         return row.ns < FAR * best.ns
-    (own, below, _), (other, _, above) = margins(row, objective), margins(best, objective)
+    (own, below, _), (other, _, above) = margins(row, measure), margins(best, measure)
     return own - below <= other + above
 
 
-def rows_of_scene(cells: list[Cell], objective: str) -> list[Row]:
+def rows_of_scene(cells: list[Cell], measure: Measure) -> list[Row]:
     """Ranks the cells of one scene, all of which have times. Rows that lack frames come after the others of a like ratio."""
-    frames = {number: Frame(there, objective) for number, there in grouped(cells, lambda cell: cell.frame).items()}
+    objective = measure.objective
+    frames = {number: Frame(there, measure) for number, there in grouped(cells, lambda cell: cell.frame).items()}
     levels = {id(cell): frames[cell.frame].level(cell) for cell in cells}
     rows = []
     for there in grouped(cells, method).values():
-        ns, own = mean([levels[id(cell)] for cell in there]), mean([frames[cell.frame].middle(cell) for cell in there])
+        ns, own = mean([levels[id(cell)] for cell in there]), mean([measure.middle(cell) for cell in there])
         rows.append(Row(there, ns, ns / own if own > 0 else 1, complete=len({cell.frame for cell in there}) == len(frames)))
 
     def total(row: Row, numbers: set[int]) -> float:
@@ -205,7 +234,7 @@ def rows_of_scene(cells: list[Cell], objective: str) -> list[Row]:
         row.ratio = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
         if objective in AMOUNTS:
             row.ratio = own / least if least > 0 else 1 if own == least else math.inf
-        row.tied = own == least and is_tied(row, best, objective)
+        row.tied = own == least and is_tied(row, best, measure)
     return sorted(rows, key=lambda row: (row is not best, row.ratio, not row.complete, row.ns))
 
 
@@ -223,13 +252,16 @@ def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:
     return merged
 
 
-def ranked(cells: Iterable[Cell], objective: str = "frame") -> Ranking:
-    """Ranks builders or pipelines. Cells that are wrong are named apart and never ranked; neither is what has no times."""
+def ranked(cells: Iterable[Cell], objective: str = "frame", trusts_stages: bool = False) -> Ranking:
+    """Ranks builders or pipelines. Cells that are wrong are named apart and never ranked; neither is what has no times. With
+    `trusts_stages`, the stages of methods from outside are taken as they say."""
     cells = list(cells)
     wrong = [cell for cell in cells if cell.verdict == "differs"]
     bad = {(cell.scene, method(cell)) for cell in wrong}
     timed = [cell for cell in cells if cell.has_times and (cell.scene, method(cell)) not in bad
              and (objective not in AMOUNTS or not math.isnan(AMOUNTS[objective](cell)))]
-    scenes = {scene: rows_of_scene(there, objective) for scene, there in grouped(timed, lambda cell: cell.scene).items()}
+    measure = Measure(objective, not trusts_stages and is_by_wall(timed))
+    scenes = {scene: rows_of_scene(there, measure) for scene, there in grouped(timed, lambda cell: cell.scene).items()}
     rows = next(iter(scenes.values())) if len(scenes) == 1 else over_scenes(scenes)
-    return Ranking(objective, rows, scenes, wrong, [cell for cell in cells if not cell.has_times and cell.verdict != "differs"])
+    without = [cell for cell in cells if not cell.has_times and cell.verdict != "differs"]
+    return Ranking(objective, measure.by_wall, rows, scenes, wrong, without)

@@ -3,6 +3,7 @@ import array
 import pathlib
 from typing import Any
 
+import answer
 import results
 from cells import Cell
 from report_cells import scene_name, state_of, who
@@ -69,7 +70,7 @@ def warnings_of(document: dict[str, Any]) -> list[str]:
             (program["build_type"] != "Release", f"The program was a {program['build_type']} build: its times are not those of a release."),
             ("finished_at" not in run, "The run has no end: it was stopped, or goes on. What is missing was not measured."),
             (run["device"]["kind"] == "cpu", "Kernels ran on a processor: times say nothing about a GPU.")]
-    return [sentence for is_so, sentence in told if is_so]
+    return [sentence for is_so, sentence in told if is_so] + answer.warnings([Cell(raw) for raw in document["cells"] if "outside" in raw])
 
 
 def packed(kind: str, values: list) -> bytes:

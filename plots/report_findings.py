@@ -27,6 +27,7 @@ AXES = {"narrow": "Which test of two triangles is right, and what does it cost?"
         "boxes": "What do smaller boxes save a query, and how many false pairs do they add?",
         "swept": "Which boxes of a triangle's way miss nothing, and what do they cost?",
         "frames": "What does a frame cost, and how many contacts are wrong, by what is rounded?"}
+BY_WALL = " Times are by the wall clock where a method from outside is compared."
 NO_FALSE = ("narrow", "frames")  # axes whose methods must not find too much either
 
 
@@ -69,6 +70,7 @@ class Case(NamedTuple):
     scene: str
     asked: str
     rows: list[Row]
+    by_wall: bool
 
 
 def is_right(cell: Cell) -> bool:
@@ -83,9 +85,9 @@ def cases_of(cells: list[Cell], objective: str) -> list[Case]:
     cases = []
     for key, own in groups.items():
         frames = {cell.frame for cell in own}
-        rows = ranked(filter(is_right, own), objective).rows
-        if full := [row for row in rows if {cell.frame for cell in row.cells} == frames]:
-            cases.append(Case(*key, full))
+        found = ranked(filter(is_right, own), objective)
+        if full := [row for row in found.rows if {cell.frame for cell in row.cells} == frames]:
+            cases.append(Case(*key, full, found.by_wall and objective == "frame"))
     return cases
 
 
@@ -127,7 +129,7 @@ def sentence(cases: list[Case], objective: str | None) -> str:
     libraries = [next(filter(is_librarys, case.rows)) for case in compared if not is_librarys(case.rows[0])
                  and any(map(is_librarys, case.rows))]
     after = behind(f"the next{rival}", [case.rows[1] for case in compared]) + noise + behind("the best library", libraries)
-    return f"{', '.join(said)}{after}."
+    return f"{', '.join(said)}{after}.{BY_WALL if any(case.by_wall for case in compared) else ''}"
 
 
 def findings_of(cells: list[Cell]) -> list[dict[str, Any]]:
@@ -178,8 +180,8 @@ def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] 
     kept = [k for k, _ in enumerate(COLUMNS) if is_needed.get(k, True) and any(row[k] not in (None, "") for row in rows)]
     more = {"file": {"links": names}, "time": {"links": links, "unit": "µs"}}
     starred = any(row[2] and " *" in row[2] for row in rows)
-    note = ("Time: the lowest, a mean over frames of medians. Ratio: the next over it. Beyond noise: intervals of the medians "
-            "do not overlap. What was wrong, or lacks a frame, has no place.")
+    note = ("Time: the lowest, a mean over frames of medians, by the wall clock where a method from outside is compared. Ratio: the "
+            "next over it. Beyond noise: intervals of the medians do not overlap. What was wrong, or lacks a frame, has no place.")
     return {"title": "The best of each scene", "cells": None, "note": note + (f" {report_cells.STAR}." if starred else ""),
             "rows": [[row[k] for k in kept] for row in rows],
             "columns": [{"label": label, "kind": kind, "facet": label in FACETS, **more.get(label, {})}

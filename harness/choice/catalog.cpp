@@ -220,6 +220,8 @@ void add_broken_outside(const std::string& why)
     broken += (broken.empty() ? "" : "; ") + why;
 }
 
+bool has_outside() { return !outside_entries().libraries.empty(); }
+
 const outside::Library* outside_library(std::string_view name)
 {
     const Outside& all = outside_entries();

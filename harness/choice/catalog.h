@@ -157,6 +157,9 @@ void add_outside(outside::Library library, const outside::Limits& limits);
 /// Notes that a plug-in does not start, and why. Names that no other plug-in has may be its.
 void add_broken_outside(const std::string& why);
 
+/// True if the catalogs have a method from outside.
+bool has_outside();
+
 /// Returns the library of the builder or collider `name` from outside; nullptr if it is none.
 const outside::Library* outside_library(std::string_view name);
 

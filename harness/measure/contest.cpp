@@ -116,12 +116,14 @@ Contest::Place Contest::look(const Cell& cell, const std::vector<StageTime>& bef
             if (time.stage == "broad")
                 keep_least(key_of_kind(cell), ns);
         }
-        return raced_ns(race_, run);
     };
+    learn(before);
     double own = std::numeric_limits<double>::infinity();
-    for (const Sample& sample : cell.samples)
-        own = std::min(own, learn(sample.stages));
-    const double earlier = before.empty() ? own : learn(before);
+    for (const Sample& sample : cell.samples) {
+        learn(sample.stages);
+        own = std::min(own, raced_ns(race_, sample));
+    }
+    const double earlier = before.empty() ? own : raced_ns(race_, before);
     best_ns_ = best_ns_ == 0 ? own : std::min(best_ns_, own);
     const double limit = race_ == Race::memory ? own : far_behind * slower * best_ns_;
     return own <= limit       ? Place::in_the_race
@@ -154,7 +156,7 @@ double Contest::value_of(const Cell& cell) const
         return bytes_held(cell);
     std::vector<double> values;
     for (const Sample& sample : cell.samples)
-        values.push_back(raced_ns(race_, sample.stages));
+        values.push_back(raced_ns(race_, sample));
     return quantile(std::move(values), 0.5);
 }
 

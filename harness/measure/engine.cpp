@@ -92,7 +92,7 @@ bool Engine::look(Subject& subject, Contest& contest)
         place = contest.look(cell, subject.settled, slower_now());
     } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     if (place != Contest::Place::far_behind) {
-        const double own = raced_ns(plan_.rules.race, cell.samples.back().stages);
+        const double own = raced_ns(plan_.rules.race, cell.samples.back());
         if (own > 0 && (ahead_ == nullptr || own < ahead_ns_)) {
             ahead_ = &subject;
             ahead_ns_ = own;
@@ -128,7 +128,9 @@ double Engine::slower_now()
 {
     if (ahead_ == nullptr || !ahead_->is_ready() || plan_.rules.race == Race::memory)
         return 1;
-    const double now = raced_ns(plan_.rules.race, run_once(*ahead_));
+    Sample sample{.stages = run_once(*ahead_)};
+    sample.wall_ns = session_.queue().wall_ns();
+    const double now = raced_ns(plan_.rules.race, sample);
     if (!ahead_->is_ready()) {
         ahead_ = nullptr;
         return 1;

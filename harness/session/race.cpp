@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "harness/choice/catalog.h"
 #include "harness/session/sampler.h"
 
 namespace bvhbench {
@@ -77,14 +78,20 @@ bool is_of_query(std::string_view stage)
            stage == "narrow";
 }
 
-double raced_ns(Race race, const std::vector<StageTime>& stages)
+double raced_ns(Race race, const std::vector<StageTime>& stages, std::int64_t wall_ns)
 {
+    const bool by_wall = wall_ns > 0;
     if (race != Race::query)
-        return whole_ns(stages);
-    double sum = 0;
+        return by_wall ? static_cast<double>(wall_ns) : whole_ns(stages);
+    double of_query = 0, others = 0;
     for (const StageTime& time : stages)
-        sum += is_of_query(time.stage) ? static_cast<double>(time.elapsed_ns()) : 0;
-    return sum;
+        (is_of_query(time.stage) ? of_query : others) += static_cast<double>(time.elapsed_ns());
+    return by_wall ? static_cast<double>(wall_ns) - others : of_query;
+}
+
+double raced_ns(Race race, const Sample& sample)
+{
+    return raced_ns(race, sample.stages, has_outside() ? sample.wall_ns : 0);
 }
 
 }  // namespace bvhbench

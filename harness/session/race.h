@@ -6,12 +6,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "device/queue.h"
 #include "harness/choice/sampling.h"
+#include "harness/record/record.h"
 
 namespace bvhbench {
 
@@ -49,7 +51,11 @@ std::size_t best_of(std::span<const Runner> cells);
 /// True for stages that follow the tree of a frame.
 bool is_of_query(std::string_view stage);
 
-/// Returns what a race for `race` compares of one sample, in nanoseconds.
-double raced_ns(Race race, const std::vector<StageTime>& stages);
+/// Returns what a race for `race` compares of one sample, in nanoseconds: of the stages, or of `wall_ns` of the wall clock if that is
+/// not 0. A query by the wall clock is what the stages of the tree leave of it.
+double raced_ns(Race race, const std::vector<StageTime>& stages, std::int64_t wall_ns = 0);
+
+/// The same of a sample. It is by the wall clock if the run has methods from outside, which say themselves what their stages take.
+double raced_ns(Race race, const Sample& sample);
 
 }  // namespace bvhbench

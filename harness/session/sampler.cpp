@@ -168,8 +168,7 @@ public:
             runners_[i].bytes = plan.rules.race == Race::memory ? cells[i].bytes : 0;
             for (const Sample& sample : cells[i].earlier) {
                 rules_[i].add(whole_ns(sample.stages), true);
-                runners_[i].least =
-                    std::min(runners_[i].least, raced_ns(plan.rules.race, sample.stages));
+                runners_[i].least = std::min(runners_[i].least, raced_ns(plan.rules.race, sample));
                 taken_[i].samples.push_back(sample);
             }
             if (!cells[i].earlier.empty())
@@ -258,12 +257,12 @@ private:
             return;
         slow_down(stages, cells_[i].name);
         rules_[i].add(whole_ns(stages), drift_.is_steady());
-        runners_[i].values.push_back(raced_ns(plan_.rules.race, stages));
         Sample& sample = taken.samples.emplace_back();
         sample.order = order;
         sample.stages = std::move(stages);
         if (cells_[i].wall_ns)
             sample.wall_ns = cells_[i].wall_ns();
+        runners_[i].values.push_back(raced_ns(plan_.rules.race, sample));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         taken.stopped = rules_[i].verdict(elapsed.count());
     }

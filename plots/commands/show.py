@@ -29,7 +29,7 @@ def text(file: str) -> str:
         return cluster.text(clusters.read(file))
     run = results.everything(file)
     try:
-        return answer.of_cells(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
+        return answer.of_cells(run.all_cells) + answer.warning_lines(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
     except KeyError as missing:
         raise results.Refused(f"{file}: a cell has no {missing}") from missing
 

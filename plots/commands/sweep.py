@@ -226,7 +226,7 @@ def written(sweep: Sweep, units: list[Unit], shard: Shard, folder: Folder, facts
     cells = [Cell(raw) for raw in value_of(merged.text.encode(errors="replace"))["cells"]]
     count = {status: sum(cell.status == status for cell in cells) for status in ("measured", "skipped", "failed")}
     print(f"{tables.counted(len(cells), 'cell')}: " + ", ".join(f"{number:,} {status}" for status, number in count.items()))
-    print(f"{answer.of_cells(cells)}written: {folder.result_file}", flush=True)
+    print(f"{answer.of_cells(cells)}{answer.warning_lines(cells)}written: {folder.result_file}", flush=True)
     return cells
 
 

@@ -21,11 +21,15 @@ def error(row: Row) -> str:
     return ", ".join(f"{count:,.0f} {what}" for count, what in said if not math.isnan(count) and count > 0)
 
 
+def milliseconds(by_wall: bool) -> str:
+    return "wall ms" if by_wall else "ms"
+
+
 def verdict(row: Row) -> str:
     return next((cell.verdict for cell in row.cells if cell.verdict != "agrees"), "agrees")
 
 
-def rows_text(rows: list[Row], most: int | None, scenes: list[str]) -> str:
+def rows_text(rows: list[Row], most: int | None, scenes: list[str], by_wall: bool) -> str:
     """Returns a line for each row; "=" marks what is no worse than the best within noise. With several scenes each has a column
     with the ratio to its best."""
     lines = []
@@ -37,8 +41,8 @@ def rows_text(rows: list[Row], most: int | None, scenes: list[str]) -> str:
         lines.append([answer.label(row.first), *columns, fixed(row.ratio), mark, fixed(row.bytes * MEGA, 1), fixed(row.sah),
                       whole(row.mean("box_tests_count")), error(row),
                   "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames])
-    titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or ["ms"]), "times the best", "<", "MB", "SAH",
-              "box tests", "<error", "samples", "<verdict"]
+    titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or [milliseconds(by_wall)]), "times the best", "<", "MB",
+              "SAH", "box tests", "<error", "samples", "<verdict"]
     shown = [place for place, title in enumerate(titles) if title not in MAY_BE_BLANK or any(line[place] for line in lines)]
     table = Table(*(titles[place] for place in shown))
     for line in lines:
@@ -69,7 +73,7 @@ def by_family(found: Ranking) -> str:
     firsts = {scene: answer.best_of_families(rows) for scene, rows in found.scenes.items()}
     if max(map(len, firsts.values()), default=0) < 2:
         return ""
-    table = Table("<scene", "<family", "<its best", "ms", "times the best", "<")
+    table = Table("<scene", "<family", "<its best", milliseconds(found.by_wall), "times the best", "<")
     for scene, rows in firsts.items():
         for row in rows:
             mark = "=" if row.tied and row is not rows[0] else ""
@@ -89,10 +93,11 @@ def text(found: Ranking, all_: bool = False) -> str:
     several = len(found.scenes) > 1
     for scene, rows in found.scenes.items():
         parts += [f"{scene}\n"] if several else []
-        parts.append(rows_text(rows, None if all_ else MOST_OF_SCENE if several else MOST_ROWS, []))
+        parts.append(rows_text(rows, None if all_ else MOST_OF_SCENE if several else MOST_ROWS, [], found.by_wall))
     if several and found.rows:
         parts += ["all scenes: the geometric mean of the ratios to each scene's best\n",
-                  rows_text(found.rows, None if all_ else MOST_ROWS, list(found.scenes))]
+                  rows_text(found.rows, None if all_ else MOST_ROWS, list(found.scenes), found.by_wall)]
     parts += [by_family(found), left_out(found, all_)]
     parts += [f"{terminal.prose(answer.sentence(found))}\n"] if found.rows else []
+    parts.append(answer.warning_lines([cell for rows in found.scenes.values() for row in rows for cell in row.cells]))
     return "".join(parts)

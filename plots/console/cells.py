@@ -6,6 +6,7 @@ import results
 import tables
 from cells import Cell
 from console import spread
+from ranking import middle_of
 from tables import Table, whole
 
 MOST_LINES = 100  # with more cells, only those that do not agree have a line
@@ -22,9 +23,10 @@ def text(run: results.Run, wanted: Callable[[Cell], bool] | None = None) -> str:
     wanted = wanted or wanted_of(run)
     has_wall = any(cell.wall_ns for cell in run.all_cells)
     table = Table("<scene", "triangles", "<builder", *spread.TITLES, *["wall"] * has_wall, "n", "Mtris/s", "ns/tri", "GB/s", "% of copy", "<verdict")
+    middle = middle_of(run.all_cells)
     shown = [cell for cell in run.all_cells if cell.verdict != "agrees" or wanted(cell)]
     for cell in shown:
-        table.row(*line(cell, run.copy_rate_of(cell), has_wall), among=cell.scene, value=cell.median_ns() if cell.has_times else math.nan)
+        table.row(*line(cell, run.copy_rate_of(cell), has_wall), among=cell.scene, value=middle(cell) if cell.has_times else math.nan)
     stand_ins = "* a stand-in: the scene itself is not there\n" if any(cell.stand_in_for for cell in shown) else ""
     agreeing = sum(cell.verdict == "agrees" for cell in run.all_cells)
     return f"{table.text() if shown else ''}{stand_ins}{outside(shown)}{len(run.all_cells):,} cells, {agreeing:,} agree\n"

@@ -6,6 +6,7 @@ from cells import Cell, grouped
 from console import cell as one_cell
 from console import cells as all_cells
 from console import spread
+from ranking import is_by_wall
 from tables import Table, duration, fixed, whole
 
 
@@ -40,6 +41,7 @@ def text(run: results.Run, printed: str = "") -> str:
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
                           lambda cell: cell.key("scene", "builder", "collider", "experiment", "caches")).values())
     has_wall = any(cell.wall_ns for cells in groups for cell in cells)
+    by_wall = is_by_wall(cell for cells in groups for cell in cells)
     table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", *["wall"] * has_wall, "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []
     names = [cells[0].scene_facts["name"] for cells in groups]
@@ -53,7 +55,7 @@ def text(run: results.Run, printed: str = "") -> str:
         of_first = times_of(cells[:1])[0] if len(cells) > 1 else ""
         table.row(name + stand_in, first.pipeline, str(len(cells)), of_first, *of_frames, *[wall_of(later)] * has_wall, *copies,
                   fixed(mean(later, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
-                  value=float(of_frames[0] or "nan"))
+                  value=float((wall_of(later) if by_wall else of_frames[0]) or "nan"))
         for row in rows if name != next_name else ():
             if row["scene"] == (first.stand_in_for or name):
                 table.row("", f"paper: {row['method']}", str(row["frames"]), "", fixed(row["frame_ms"], 3),

@@ -152,6 +152,8 @@ TEST(Race, OfQueriesLeavesTheTreeOut)
     const std::vector<StageTime> stages = {{"hierarchy", 70, 70, 0, 1}, {"broad", 20, 20, 0, 1}};
     EXPECT_EQ(raced_ns(Race::query, stages), 20);
     EXPECT_EQ(raced_ns(Race::whole, stages), 90);
+    EXPECT_EQ(raced_ns(Race::query, stages, 100), 30);  // by the wall clock
+    EXPECT_EQ(raced_ns(Race::whole, stages, 100), 100);
 }
 
 }  // namespace

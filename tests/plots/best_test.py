@@ -5,11 +5,12 @@ import re
 import unittest
 from typing import Any
 
-from base import ROOT, Raw, InFolder, cell, run_of, stage  # first: it adds plots to sys.path
+from base import ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
 
 import answer
 import best_bars
 import families
+import overview
 import ranking
 import results
 import style
@@ -186,6 +187,99 @@ class ASentence(unittest.TestCase):
                          ["front tracking", "radix trees", "hierarchical grid", "wide trees"])
         for name in style.LOOKS:
             self.assertNotEqual(families.of_builder(name), name, f"plots/families.py has no family for {name}")
+
+
+def walled(made: Raw, walls: list[int], round_trip: int = 0, outside: bool = False) -> Raw:
+    """Adds the wall clock of each sample, and the least round trip, in microseconds; with `outside`, to a collider of a program."""
+    for sample, wall in zip(made["samples"], walls, strict=True):
+        sample["wall_ns"] = 1000 * wall
+    if outside:
+        made["builder"] = {"name": "none"}
+        made["counters"]["round_trip_ns"] = 1000 * round_trip
+        made["outside"] = {"name": made["collider"]["name"], "library": "Theirs", "version": "1", "licence": "MIT", "device": "host",
+                           "file": "theirs.py", "as": "program"}
+    return made
+
+
+class AMethodFromOutside(InFolder):
+    """`fast` takes 9 ms a call. It gives its nanoseconds as microseconds."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.slip = walled(frame("fast", [9] * 5), [9000, 9001, 9002, 9003, 9004], outside=True)
+        self.ours = [walled(frame("group", [1000] * 5), [1200] * 5), walled(frame("leaf", [990] * 5), [1800] * 5)]
+
+    def test_ranks_all_by_the_wall_clock(self) -> None:
+        found = ranked(self.slip, *self.ours)
+        self.assertEqual((names(found), [row.ratio for row in found.rows]), (["group", "leaf", "fast"], [1, 1.5, 9002 / 1200]))
+        self.assertEqual([row.tied for row in found.rows], [True, False, False])
+        self.assertIn("take `group` over `oibvh-multi`: 1.20 ms a frame by the wall clock, 7.5 times as fast as the next family (`fast`).",
+                      answer.sentence(found))
+        self.assertIn(" wall ms ", page.text(found))
+        self.assertEqual(names(ranked(*self.ours)), ["leaf", "group"])  # by their stages
+        self.assertNotIn("wall", page.text(ranked(*self.ours)))
+
+    def test_ranks_builds_and_several_scenes_so_too(self) -> None:
+        build = walled(cell("theirs", ns=9000), [9000] * 3)
+        build["outside"] = self.slip["outside"] | {"name": "theirs"}
+        ours = walled(cell("karras", ns=400000), [500] * 3)
+        self.assertEqual(names(ranked(build, ours, objective="build")), ["karras", "theirs"])
+        elsewhere = [walled(frame("group", [100] * 5, scene="cow"), [100] * 5), walled(frame("leaf", [90] * 5, scene="cow"), [180] * 5)]
+        several = ranked(self.slip, *self.ours, *elsewhere)
+        self.assertEqual([(row.first.collider, round(row.ratio, 2)) for row in several.rows], [("group", 1), ("leaf", 1.64)])
+        self.assertIn("of each scene's best, in the geometric mean over 2 scenes by the wall clock", answer.sentence(several))
+
+    def test_leaves_a_query_what_the_tree_leaves_of_the_wall_clock(self) -> None:
+        found = ranked(self.slip, *self.ours, objective="query")
+        self.assertEqual([(row.first.collider, round(row.ns)) for row in found.rows],
+                         [("group", 700000), ("leaf", 1305000), ("fast", 8997500)])
+
+    def test_compares_the_beaten_with_the_wall_clock_of_the_best_then(self) -> None:
+        best = walled(frame("group", [50] * 6, stopped="most"), [100, 100, 100, 200, 200, 200])
+        beaten = walled(frame("fast", [1] * 3, stopped="beaten"), [130] * 3, outside=True)
+        self.assertEqual([(row.first.collider, row.ns) for row in ranked(best, beaten).rows], [("group", 150000), ("fast", 195000)])
+
+    def test_samples_without_a_wall_clock_count_by_their_stages(self) -> None:
+        self.assertEqual(names(ranked(self.slip, frame("leaf", NARROW))), ["leaf", "fast"])
+
+    def test_is_warned_of_where_stages_leave_out_most_of_the_time(self) -> None:
+        said = "bunny, frame 0: fast: its stages take 9.00 us, and 9.00 ms pass by the wall clock"
+        self.assertEqual(answer.warnings([*map(Cell, self.ours), Cell(self.slip)]), [said])
+        self.assertIn(f"\nwarning: {said}\n", page.text(ranked(self.slip, *self.ours)))
+        path = self.written(document(self.slip, *self.ours))
+        shown = self.made("__main__.py", "show", path).stdout
+        self.assertTrue(shown.startswith("take `group` over `oibvh-multi`: 1.20 ms a frame by the wall clock"), shown)
+        self.assertIn(f"\nwarning: {said}\n", shown)
+        self.assertIn(said, self.made("__main__.py", "show", self.written(document(self.slip), "alone.json")).stdout)
+        self.made("report.py", path, "-o", self.folder / "page.html")
+        report = (self.folder / "page.html").read_text(encoding="utf-8")
+        for words in (f'<p class="warning">{said}</p>', "group over oibvh-multi is soonest on bunny: 1.20 ms; ",
+                      "Times are by the wall clock where a method from outside is compared."):
+            self.assertEqual(report.count(words) > 0, True, words)
+
+    def test_is_not_warned_of_for_the_round_trip(self) -> None:
+        for stages, wall, round_trip, is_said in ((9, 100, 10, False), (9, 118, 10, False), (9, 119, 10, True), (500, 1100, 10, False),
+                                                  (500, 1101, 10, True), (500, 1500, 600, False), (500, 1700, 600, True)):
+            made = Cell(walled(frame("fast", [stages] * 5), [wall] * 5, round_trip, outside=True))
+            self.assertEqual(made.leaves_out, is_said, (stages, wall, round_trip))
+        self.assertFalse(Cell(walled(frame("leaf", [9] * 5), [9000] * 5)).leaves_out)  # not from outside: its head start
+
+    def test_many_are_warned_of_in_six_lines(self) -> None:
+        cells = [Cell(walled(frame("fast", [9] * 5, number=number), [9000] * 5, outside=True)) for number in range(8)]
+        self.assertEqual(len(answer.warnings(cells)), 6)
+        self.assertEqual(answer.warnings(cells)[-1], "the same of 3 more cells")
+
+    def test_is_drawn_with_its_wall_clock(self) -> None:
+        style.set_up()
+        found = ranked(self.slip, *self.ours)
+        text = style.save(best_bars.draw(run_of(self.slip, *self.ours), found), self.folder, "best", [], False)[1].read_text()
+        for words in ("in no stage", "Times are by the wall clock: some are from outside.", "9.00 ms"):
+            self.assertIn(words, text)
+        run = run_of(self.slip, *self.ours)
+        run.cells = run.all_cells
+        panel, = overview.bars_of(run).values()
+        self.assertEqual([ns for _, ns, _ in panel], [1200000, 1800000, 9002000])
+        self.assertIn("by the wall clock", overview.draw(run).axes[-1].get_xlabel())
 
 
 class ATable(unittest.TestCase):

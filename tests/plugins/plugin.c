@@ -51,6 +51,10 @@ static void end(bvhbench_stages *stages)
 {
     bvhbench_stage *stage = &stages->stage[stages->count - 1];
     stage->end_ns = now_ns() + (is("leak") ? 1000000000u : 0u);
+    if (is("microseconds")) {
+        stage->begin_ns /= 1000;
+        stage->end_ns /= 1000;
+    }
 }
 
 static void *create(char *why)

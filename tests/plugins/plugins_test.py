@@ -5,6 +5,7 @@ Usage: plugins_test.py <bvhbench> <result schema> <right plug-in> <shared librar
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -117,6 +118,29 @@ def test_it_stands_in_lists_and_in_other_commands():
     other["cells"][0]["outside"]["version"] = "1.1"
     pathlib.Path("other.json").write_text(json.dumps(other))
     expect(0, "compare", "swept/sweep.json", "other.json", "--allow-dirty", says="from outside: Halves 1.1 (MIT)")
+
+
+def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
+    """The program takes 50 times as long as `brute`, and says that it takes a twentieth of its time."""
+    words = ("collide", "--program", PLAIN, "--collider", "plain,brute", *QUICK, "--json", "slip.json")
+    said = expect(0, *words, PLUGIN_FAULT="microseconds")
+    assert said.startswith("take `brute`: ") and " by the wall clock, " in said.split("\n")[0], said
+    warning = r"\nwarning: torus:200, frame 0: plain: its stages take [\d.]+ us, and [\d.]+ ms pass by the wall clock\n"
+    for text in (said, expect(0, "show", "slip.json")):
+        assert re.search(warning, text), text
+    expect(0, "report", "slip.json", "-o", "slip.html")
+    page = pathlib.Path("slip.html").read_text()
+    assert "brute is soonest on torus:200" in page and '<p class="warning">torus:200, frame 0: plain: its stages take ' in page
+    said = expect(0, "best", "torus:200", "--program", PLAIN, "--builders", "oibvh-multi", "--orders", "hilbert30", "--colliders",
+                  "plain,group", "--out", "raced.json", PLUGIN_FAULT="microseconds")
+    assert "\ntake `group` over `oibvh-multi`" in said and re.search(warning, said), said
+    # The race too goes by the wall clock: the slip does not drive all others out.
+    stopped = {cell["collider"]["name"]: cell["sampling"]["stopped"] for cell in valid("raced.json")["cells"] if "samples" in cell}
+    assert stopped["plain"] == "beaten" and stopped["group"] != "beaten", stopped
+    said = expect(0, "build", "--plugin", GOOD, "--builder", "halves,median-split", "--scene", "torus:20000", "--samples", "3",
+                  PLUGIN_FAULT="microseconds")
+    assert " a build by the wall clock" in said and "\nwarning: torus:20000: halves: its stages take " in said, said
+    assert "warning: torus" not in expect(0, *BUILD) + expect(0, *COLLIDE)
 
 
 CALLS = {  # fault of the library: what the sentence of the builder's cell says
