@@ -1,7 +1,7 @@
 """The memory that this process may still use. An input that would need more is refused before it is read."""
+import os
 import pathlib
 import re
-import resource
 
 A_TEXT_BYTE = 12  # approximate bytes of host memory for each byte of JSON
 UNITS = ("", "K", "M", "G", "T")
@@ -19,52 +19,12 @@ def bytes_of(text: str) -> int:
     return value
 
 
-def number_in(path: pathlib.Path) -> int | None:
-    try:
-        return int(path.read_text(encoding="ascii"))
-    except (OSError, ValueError):
-        return None
-
-
-def left_in_groups() -> int:
-    """Returns the bytes left in the control groups (version 1 or 2) of this process."""
-    least = UNLIMITED
-    try:
-        lines = pathlib.Path("/proc/self/cgroup").read_text(encoding="utf-8").splitlines()
-    except OSError:
-        return least
-    for line in lines:
-        _, controllers, name = line.split(":", 2)
-        if controllers not in ("", "memory"):
-            continue
-        root = pathlib.Path("/sys/fs/cgroup", controllers)
-        most, used = ("memory.limit_in_bytes", "memory.usage_in_bytes") if controllers else ("memory.max", "memory.current")
-        group = root / name.lstrip("/")
-        for folder in (group, *group.parents):
-            allowed, taken = number_in(folder / most), number_in(folder / used)
-            if allowed is not None and taken is not None:
-                least = min(least, allowed - taken)
-            if folder == root:
-                break
-    return least
-
-
-def own(key: str) -> int:
-    """Returns a value of /proc/self/status (this process) or /proc/meminfo (the machine), in bytes."""
-    for path in ("/proc/self/status", "/proc/meminfo"):
-        found = re.search(rf"^{key}:\s+(\d+) kB", pathlib.Path(path).read_text(encoding="utf-8"), re.MULTILINE)
-        if found:
-            return int(found[1]) << 10
-    return 0
-
-
 def left() -> int:
-    spaces = [own("MemAvailable"), left_in_groups()]
-    address_space = resource.getrlimit(resource.RLIMIT_AS)[0]
-    if address_space != resource.RLIM_INFINITY:
-        spaces.append(address_space - own("VmSize"))
+    """Returns the least of what the program found free when it started this process and what --memory-limit leaves."""
+    spaces = [int(os.environ.get("BVHBENCH_HOST_BYTES", UNLIMITED))]
     if limit:
-        spaces.append(limit - own("VmRSS"))
+        resident = re.search(r"^VmRSS:\s+(\d+) kB", pathlib.Path("/proc/self/status").read_text(encoding="utf-8"), re.MULTILINE)
+        spaces.append(limit - (int(resident[1]) << 10))
     return max(0, min(spaces))
 
 

@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "harness/base/build_info.h"
 #include "harness/base/interrupt.h"
 #include "scenes/worker/process.h"
@@ -87,6 +88,7 @@ void become_python(const std::vector<std::string>& words)
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     setenv("BVHBENCH_PROGRAM", program.c_str(), 1);
+    setenv("BVHBENCH_HOST_BYTES", std::to_string(host_memory_left()).c_str(), 1);
     execvp(argv.front(), argv.data());
     throw Unavailable(all.front() + " cannot be run: " + std::strerror(errno));
 }
