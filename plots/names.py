@@ -2,7 +2,7 @@
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
-# Stages in the order in which they run, by the part of a frame that they belong to (docs/measuring.md). A part is named after its
+# Stages in the order in which they run, by the part of a frame that they belong to (docs/frames.md). A part is named after its
 # stages, so that a figure and a table use one word for one thing.
 PARTS = (("upload", "near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "ropes"), ("copy", "broad"),
          ("narrow", "read_back"))

@@ -3,7 +3,7 @@
 Times are those of the stages. If one of the cells is from outside, all times are by the wall clock: a method from outside says itself
 what its stages took, and bvhbench measures its calls.
 
-Times of cells that lost a race (docs/measuring.md, A race) were taken while the machine may have been faster or slower than
+Times of cells that lost a race (docs/races.md) were taken while the machine may have been faster or slower than
 later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
 took later.
 """
@@ -21,7 +21,7 @@ from results import USUAL_COSTS
 OBJECTIVES = ("frame", "query", "build", "memory")
 OF_QUERY = ("near", "ropes", "broad", "copy", "narrow", "read_back")  # stages that follow the tree
 FEWEST = 3  # samples from which intervals are compared
-LEAST = 0.005  # differences below this are none: the best of two runs differ by more (docs/measuring.md, A race)
+LEAST = 0.005  # differences below this are none: the best of two runs differ by more (docs/races.md)
 FAR = 3  # ratio from which fewer samples are enough
 ERROR = 0.05
 

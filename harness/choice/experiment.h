@@ -15,7 +15,7 @@
 namespace bvhbench {
 
 /// An experiment: measures every builder on every scene, and every pipeline on every scene. Experiments are JSON files, so that
-/// a new one needs no code. docs/adding.md describes their keys.
+/// a new one needs no code. docs/experiments.md describes their keys.
 struct Experiment {
     std::string name;
     std::string question;

@@ -187,7 +187,7 @@ extern const CommandEntry list_command = {
     {{"bvhbench list builders", "names, and what each is"},
      {"bvhbench list devices", "for --device: words of a name, or its index"},
      {"bvhbench list scenes", "generators and data sets, and which of those are there"}},
-    "docs/adding.md",
+    "docs/commands.md",
     make_command<List>};
 
 }  // namespace bvhbench

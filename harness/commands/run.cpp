@@ -99,7 +99,7 @@ extern const CommandEntry run_command = {
       "one of your own, and part of it"},
      {"bvhbench run smoke --turns turns:2 --out a.json",
       "by turns with a second run of another build"}},
-    "docs/adding.md",
+    "docs/experiments.md",
     make_command<RunExperiment>};
 
 }  // namespace bvhbench

@@ -43,7 +43,7 @@ std::string examples(const PairList& found, const PairList& right, std::span<con
                      const Input& input, std::span<const uint> file_faces);
 
 /// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once, points of a swept input in both
-/// frames: the least that a narrow phase must read (docs/measuring.md, Bytes moved).
+/// frames: the least that a narrow phase must read (docs/counters.md, Bytes moved).
 std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input);
 
 /// Adds `bytes` to the bytes moved of `stage`, if it has launches.

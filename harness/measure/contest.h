@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the cells of a scene that were measured so far tell about the others in a race: which need not be run, because they cannot
-// win, or are too far behind to win over all frames (docs/measuring.md, A race).
+// win, or are too far behind to win over all frames (docs/races.md).
 #pragma once
 
 #include <cstddef>

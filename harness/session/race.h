@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The race between cells of one scene or frame: which of them need no more samples because another cell is better. It answers
-// "which is the fastest" with few samples (docs/measuring.md, A race).
+// "which is the fastest" with few samples (docs/races.md).
 #pragma once
 
 #include <cmath>

@@ -29,7 +29,7 @@ def parser() -> command.Parser:
         [("bvhbench best bunny.obj", "which pipeline for a mesh with itself?"),
          ("bvhbench best my/folder --frames 0:10 --adjacent drop --narrow exact", "for frames of an animation, to contacts"),
          ("bvhbench best a.ply b.ply --for build --builders oibvh-multi,karras,apetrei-fused", "which of these builds, over both?")],
-        "docs/measuring.md")
+        "docs/races.md")
     add = words.add_argument
     add("scenes", nargs="*", metavar="SCENE", help="scenes, data sets, mesh files or folders; none: a small set that is generated")
     add("--for", dest="objective", choices=ranking.OBJECTIVES, default="frame",

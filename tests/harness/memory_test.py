@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that too little memory gives an error sentence or a failed cell as in docs/measuring.md, that later scenes are measured,
+"""Tests that too little memory gives an error sentence or a failed cell as in docs/counters.md, that later scenes are measured,
 that the limit is kept, and that the kernel ends no process.
 
 MEMORY_SIZES=full includes sizes that take minutes."""
