@@ -120,14 +120,30 @@ int find_pairs(Collider& collider, const Tree* tree, const Input& input, Queue& 
 using MakeCollider = std::unique_ptr<Collider> (*)(Programs& programs,
                                                    const ColliderOptions& options);
 
-/// Factories of all colliders; docs/architecture.md describes each.
+// Factories of all colliders. Those of libraries are in baselines/baselines.h.
+
+/// Each leaf walks over the nodes behind it, without a stack.
 std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options);
+
+/// Section 5 of the paper: all pairs of nodes, level by level, in two queues between launches.
 std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options);
+
+/// Pairs of nodes, from where the traversal of an earlier frame stopped; boxes are refitted.
 std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& options);
+
+/// Each leaf against the tree, from where its walk in an earlier frame stopped [Wang2018]; boxes are refitted.
 std::unique_ptr<Collider> make_leaf_front(Programs& programs, const ColliderOptions& options);
+
+/// Neighbouring leaves are one query: a work-group fetches each node once and tests it against each leaf.
 std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options);
+
+/// 32 neighbouring leaves that form a subtree are one query of a warp, which descends five levels at a time. On few cores as `group`.
 std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& options);
+
+/// No tree: a hash grid with one level of cells for each size of box.
 std::unique_ptr<Collider> make_grid(Programs& programs, const ColliderOptions& options);
+
+/// No tree: sweep and prune, on the host.
 std::unique_ptr<Collider> make_brute(Programs& programs, const ColliderOptions& options);
 
 }  // namespace bvhbench
