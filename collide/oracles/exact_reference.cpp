@@ -157,16 +157,18 @@ bool contact(std::span<const Point> points, Face a, Face b, bool keep_adjacent)
 }  // namespace
 
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            std::span<const Pair> candidates, bool keep_adjacent)
+                            std::span<const Pair> candidates, bool keep_adjacent, Checked* checked)
 {
     require_host_memory("checking the contacts", candidates.size_bytes());
     std::vector<std::vector<Pair>> parts((candidates.size() + part_size - 1) / part_size);
     on_all_cores(parts.size(), [&](std::size_t k) {
         const std::size_t first = k * part_size;
-        for (const Pair pair :
-             candidates.subspan(first, std::min(part_size, candidates.size() - first)))
+        const auto part = candidates.subspan(first, std::min(part_size, candidates.size() - first));
+        for (const Pair pair : part)
             if (contact(points, faces[pair.a], faces[pair.b], keep_adjacent))
                 parts[k].push_back(pair);
+        if (checked != nullptr)
+            checked->all += part.size();
     });
     std::vector<Pair> found;
     for (const std::vector<Pair>& part : parts)

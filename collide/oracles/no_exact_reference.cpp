@@ -6,13 +6,13 @@
 namespace bvhbench {
 
 PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, std::span<const Pair>,
-                            bool)
+                            bool, Checked*)
 {
     throw Unavailable("this build has no CGAL to tell which triangles intersect");
 }
 
 std::vector<Impact> touching_on_the_way(std::span<const Point>, std::span<const Point>,
-                                        std::span<const Face>, std::span<const Pair>)
+                                        std::span<const Face>, std::span<const Pair>, Checked*)
 {
     throw Unavailable("this build has no CGAL to tell what touches between two frames");
 }

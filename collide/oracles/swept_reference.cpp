@@ -2,7 +2,8 @@
 //
 // Two features of four vertices touch only when these are in one plane, which is when a polynomial of degree 3 in time is zero.
 // Whether they touch at such a time follows from signs of polynomials of degree 1 and 2 (`meet`). Interval arithmetic that bisects
-// the time decides nearly all pairs; algebraic numbers decide the rest.
+// the time decides nearly all pairs; algebraic numbers decide the rest. If vertices stay in one plane, that polynomial is zero at
+// all times, and those signs alone decide; whole numbers tell where intervals cannot tell that it is.
 #include "collide/oracles/swept_reference.h"
 
 #include <CGAL/Algebraic_kernel_d_1.h>
@@ -28,17 +29,20 @@ using Whole = CORE::BigInt;
 using Truth = CGAL::Uncertain<bool>;
 using Sign = CGAL::Uncertain<CGAL::Sign>;
 
-constexpr std::size_t pairs_at_once = 4096;  ///< pairs that a thread takes at once
-constexpr int most_halvings = 40;            ///< of the time, in interval arithmetic
+constexpr std::size_t pairs_at_once = 256;  ///< pairs that a thread takes at once
+constexpr int most_halvings = 40;           ///< of the time, in interval arithmetic
 
 /// A polynomial in time of degree 3 or less: the coefficients of 1, t, t^2 and t^3.
 template <class Number>
 struct Polynomial {
     std::array<Number, 4> of = {Number(0), Number(0), Number(0), Number(0)};
 
-    bool is_zero() const
+    Truth is_zero() const
     {
-        return std::ranges::all_of(of, [](const Number& one) { return one == Number(0); });
+        Truth is = true;
+        for (const Number& one : of)
+            is = is & (one == Number(0));
+        return is;
     }
     friend Polynomial operator+(Polynomial a, const Polynomial& b)
     {
@@ -92,6 +96,14 @@ struct Motion {
     }
 };
 
+/// Returns each vertex with the ends of each edge of the other feature that it can be on.
+std::vector<std::array<std::size_t, 3>> vertices_and_edges(bool of_edges)
+{
+    if (of_edges)
+        return {{0, 2, 3}, {1, 2, 3}, {2, 0, 1}, {3, 0, 1}};
+    return {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
+}
+
 /// Whether vertex p is on the segment from a to b. `sign` returns a polynomial's sign at the time in question.
 template <class Number, class SignOf>
 Truth is_between(const Motion<Number>& all, std::size_t p, std::size_t a, std::size_t b,
@@ -107,8 +119,7 @@ Truth is_between(const Motion<Number>& all, std::size_t p, std::size_t a, std::s
 /// Whether the features meet in the projection along an axis: necessary if they meet, and sufficient if the plane that they
 /// span is not parallel to the axis.
 template <class Number, class SignOf>
-Truth meet_along(const Motion<Number>& all, std::size_t axis, const Sign& normal,
-                 const SignOf& sign)
+Truth meet_along(const Motion<Number>& all, std::size_t axis, const SignOf& sign)
 {
     const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
         return sign(all.cross(a, b, a, c, axis));
@@ -116,8 +127,9 @@ Truth meet_along(const Motion<Number>& all, std::size_t axis, const Sign& normal
     if (all.of_edges)
         return (turn(0, 1, 2) * turn(0, 1, 3) != CGAL::POSITIVE) &
                (turn(2, 3, 0) * turn(2, 3, 1) != CGAL::POSITIVE);
-    return (turn(1, 2, 0) * normal != CGAL::NEGATIVE) & (turn(2, 3, 0) * normal != CGAL::NEGATIVE) &
-           (turn(3, 1, 0) * normal != CGAL::NEGATIVE);
+    const Sign first = turn(1, 2, 0), second = turn(2, 3, 0), third = turn(3, 1, 0);
+    return (first * second != CGAL::NEGATIVE) & (second * third != CGAL::NEGATIVE) &
+           (third * first != CGAL::NEGATIVE);
 }
 
 /// Whether the features meet at a time at which all vertices are in one plane. If that plane is not parallel to some axis, the
@@ -128,16 +140,13 @@ Truth meet(const Motion<Number>& all, const SignOf& sign)
     Truth necessary = true, sufficient = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Sign normal = sign(all.normal(axis));
-        const Truth along = meet_along(all, axis, normal, sign);
+        const Truth along = meet_along(all, axis, sign);
         necessary = necessary & along;
         sufficient = sufficient | ((normal != CGAL::ZERO) & along);
     }
     if (CGAL::certainly_not(necessary))
         return false;
-    using Three = std::array<std::size_t, 3>;
-    for (const auto& [p, a, b] :
-         all.of_edges ? std::array{Three{0, 2, 3}, Three{1, 2, 3}, Three{2, 0, 1}, Three{3, 0, 1}}
-                      : std::array{Three{0, 1, 2}, Three{0, 2, 3}, Three{0, 3, 1}, Three{0, 3, 1}})
+    for (const auto& [p, a, b] : vertices_and_edges(all.of_edges))
         if (!CGAL::certainly(sufficient))
             sufficient = sufficient | is_between(all, p, a, b, sign);
     return sufficient;
@@ -157,51 +166,72 @@ struct SignDuring {
     }
 };
 
-/// Whether the features touch from `begin` to `end`, if intervals can tell. Sets `no_later` if they do.
-Truth likely_touch(const Motion<Interval>& all, const Polynomial<Interval>& volume, double begin,
-                   double end, int halvings, double& no_later)
-{
-    const SignDuring during{Interval(begin, end)};
-    if (CGAL::certainly(during(volume) != CGAL::ZERO))
-        return false;
-    const Truth meets = meet(all, during);
-    if (CGAL::certainly_not(meets))
-        return false;
-    const Sign at_begin = SignDuring{begin}(volume), at_end = SignDuring{end}(volume);
-    if (CGAL::certainly(meets) && CGAL::certainly(at_begin * at_end == CGAL::NEGATIVE)) {
-        no_later = end;
-        return true;
+/// Looks for a time at which the features touch, by intervals, from the first on.
+struct Search {
+    const Motion<Interval>& all;
+    const Polynomial<Interval>& volume;
+    int undecided;        ///< how many intervals that are not halved further may remain undecided
+    double no_later = 0;  ///< if they touch: a time up to which they do
+
+    /// Whether the features touch from `begin` to `end`, if intervals can tell.
+    Truth during(double begin, double end, int halvings = most_halvings)
+    {
+        const SignDuring sign{Interval(begin, end)};
+        const Sign side = sign(volume);
+        if (CGAL::certainly(side != CGAL::ZERO))
+            return false;
+        const Truth meets = meet(all, sign);
+        if (CGAL::certainly_not(meets))
+            return false;
+        const Sign at_begin = SignDuring{begin}(volume), at_end = SignDuring{end}(volume);
+        const Truth in_one_plane = (side == CGAL::ZERO) | (at_begin * at_end == CGAL::NEGATIVE);
+        if (CGAL::certainly(meets & in_one_plane)) {
+            no_later = CGAL::certainly(side == CGAL::ZERO) ? begin : end;
+            return true;
+        }
+        if (halvings == 0) {
+            --undecided;
+            return Truth::indeterminate();
+        }
+        const double middle = begin + (end - begin) / 2;
+        const Truth first = during(begin, middle, halvings - 1);
+        if (CGAL::certainly(first) || undecided == 0)
+            return first;
+        return first | during(middle, end, halvings - 1);
     }
-    if (halvings == 0)
-        return Truth::indeterminate();
-    const double middle = begin + (end - begin) / 2;
-    const Truth first = likely_touch(all, volume, begin, middle, halvings - 1, no_later);
-    return CGAL::certainly_not(first)
-               ? likely_touch(all, volume, middle, end, halvings - 1, no_later)
-               : first;
+};
+
+/// Returns polynomials of which one is zero when features that stay in one plane first touch, unless they do at time 0: a vertex
+/// arrives at an edge from beside it, or, if it stays on the edge's line, at an end.
+std::vector<Polynomial<Whole>> arrivals(const Motion<Whole>& all)
+{
+    std::vector<Polynomial<Whole>> found;
+    const auto add_first = [&](const auto& component) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (const Polynomial<Whole> one = component(axis); !one.is_zero()) {
+                found.push_back(one);
+                return true;
+            }
+        return false;
+    };
+    for (const auto& [p, a, b] : vertices_and_edges(all.of_edges))
+        if (!add_first([&](std::size_t axis) { return all.cross(a, b, a, p, axis); }))
+            for (const std::size_t end : {a, b})
+                add_first([&](std::size_t axis) { return all.way(end, p, axis); });
+    return found;
 }
 
 /// Returns a time up to which the features touch, or nothing if they do not.
 std::optional<double> exact_touch(const Motion<Whole>& all)
 {
     using Kernel = CGAL::Algebraic_kernel_d_1<Whole>;
-    static std::mutex one_at_a_time;  // numbers of this type share representations
-    const std::lock_guard lock(one_at_a_time);
     const Kernel kernel;
     const auto in_cgal = [](const Polynomial<Whole>& p) {
         return Kernel::Polynomial_1(p.of.begin(), p.of.end());
     };
-    // If all vertices stay in one plane, the answer changes only when a sign that `meet` reads does.
     std::vector<Polynomial<Whole>> changes = {all.volume()};
     if (changes.front().is_zero())
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            changes.push_back(all.normal(axis));
-            for (std::size_t a = 0; a < 4; ++a)
-                for (std::size_t b = 0; b < 4; ++b)
-                    for (std::size_t c = 0; c < 4; ++c)
-                        changes.push_back(a == b ? all.way(a, c, axis)
-                                                 : all.cross(a, b, a, c, axis));
-        }
+        changes = arrivals(all);
     std::set<Kernel::Algebraic_real_1> times = {
         kernel.construct_algebraic_real_1_object()(Whole(0))};
     std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
@@ -239,27 +269,42 @@ Motion<Number> motion_of(const std::array<Point, 4>& from, const std::array<Poin
 }
 
 std::optional<double> touch(const std::array<Point, 4>& from, const std::array<Point, 4>& to,
-                            bool of_edges)
+                            bool of_edges, Checked& checked)
 {
-    {
-        const CGAL::Protect_FPU_rounding<true> upwards;
-        const auto all =
-            motion_of<Interval>(from, to, of_edges, [](float x) { return Interval(x); });
-        double no_later = 0;
-        const Truth touch = likely_touch(all, all.volume(), 0, 1, most_halvings, no_later);
-        if (CGAL::certainly_not(touch))
-            return std::nullopt;
-        if (CGAL::certainly(touch))
-            return no_later;
-    }
     int least = 0;  // all coordinates are whole multiples of 2^least
     for (const auto& four : {from, to})
         for (const Point& p : four)
             for (const float x : {p.x, p.y, p.z})
                 if (x != 0)
                     least = std::min(least, std::ilogb(x) - 23);
-    return exact_touch(motion_of<Whole>(
-        from, to, of_edges, [&](float x) { return Whole(std::ldexp(double{x}, -least)); }));
+    const auto in_whole_numbers = [&] {
+        return motion_of<Whole>(from, to, of_edges,
+                                [&](float x) { return Whole(std::ldexp(double{x}, -least)); });
+    };
+    static std::mutex one_at_a_time;  // whole numbers share representations
+    {
+        const CGAL::Protect_FPU_rounding<true> upwards;
+        const auto all =
+            motion_of<Interval>(from, to, of_edges, [](float x) { return Interval(x); });
+        Polynomial<Interval> volume = all.volume();
+        Truth in_one_plane = volume.is_zero();
+        if (CGAL::is_indeterminate(in_one_plane)) {
+            const std::lock_guard lock(one_at_a_time);
+            in_one_plane = in_whole_numbers().volume().is_zero();
+        }
+        if (CGAL::certainly(in_one_plane))
+            volume = {};
+        // Features in one plane touch from the first time on for a while, before which an interval or two remain undecided.
+        Search search{all, volume, CGAL::certainly(in_one_plane) ? 4 : 1};
+        const Truth touch = search.during(0, 1);
+        if (CGAL::certainly_not(touch))
+            return std::nullopt;
+        if (CGAL::certainly(touch))
+            return search.no_later;
+    }
+    ++checked.by_roots;
+    const std::lock_guard lock(one_at_a_time);
+    return exact_touch(in_whole_numbers());
 }
 
 }  // namespace
@@ -267,14 +312,16 @@ std::optional<double> touch(const std::array<Point, 4>& from, const std::array<P
 std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Point> end_points,
                                         std::span<const Face> faces,
-                                        std::span<const Pair> candidates)
+                                        std::span<const Pair> candidates, Checked* checked)
 {
     require_host_memory("checking the contacts between frames", candidates.size_bytes());
     std::vector<std::vector<Impact>> parts((candidates.size() + pairs_at_once - 1) / pairs_at_once);
     on_all_cores(parts.size(), [&](std::size_t k) {
         const std::size_t first = k * pairs_at_once;
-        for (const Pair pair :
-             candidates.subspan(first, std::min(pairs_at_once, candidates.size() - first))) {
+        const auto part =
+            candidates.subspan(first, std::min(pairs_at_once, candidates.size() - first));
+        Checked ours{.all = part.size()};
+        for (const Pair pair : part) {
             const Face a = faces[pair.a], b = faces[pair.b];
             if (share_a_vertex(a, b))
                 continue;
@@ -283,8 +330,12 @@ std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                 return of_edges ? std::array{at[a.a], at[a.b], at[b.a], at[b.b]}
                                 : std::array{at[a.a], at[b.a], at[b.b], at[b.c]};
             };
-            if (const auto no_later = touch(vertices(points), vertices(end_points), of_edges))
+            if (const auto no_later = touch(vertices(points), vertices(end_points), of_edges, ours))
                 parts[k].push_back({pair, *no_later});
+        }
+        if (checked != nullptr) {
+            checked->all += ours.all;
+            checked->by_roots += ours.by_roots;
         }
     });
     std::vector<Impact> found;

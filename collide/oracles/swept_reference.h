@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "collide/oracles/exact_reference.h"
 #include "collide/pairs.h"
 #include "geometry/triangle.h"
 
@@ -19,12 +20,13 @@ struct Impact {
 /// Returns the candidates that touch while all vertices move in straight lines from `points` to `end_points`, in the order of the
 /// candidates: the oracle of the narrow phase between two frames, independent of its code. Candidates are pairs of a vertex
 /// (a, a, a) and any face, the vertex first, or of two edges (a, b, b). Exact for the coordinates as stored, which must be finite;
-/// touching counts. Pairs that share a vertex are left out. Uses all host cores. Throws Unavailable without CGAL or with too
-/// little host memory.
+/// touching counts. Pairs that share a vertex are left out. Counts in `checked`, if given. Uses all host cores. Throws Unavailable
+/// without CGAL or with too little host memory.
 std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Point> end_points,
                                         std::span<const Face> faces,
-                                        std::span<const Pair> candidates);
+                                        std::span<const Pair> candidates,
+                                        Checked* checked = nullptr);
 
 inline PairList pairs_of(const std::vector<Impact>& impacts)
 {
