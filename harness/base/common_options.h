@@ -21,7 +21,7 @@ struct CommonOptions {
     std::vector<std::string> plugins;   ///< shared libraries with builders and colliders
     std::vector<std::string> programs;  ///< programs with builders and colliders
     std::size_t memory_limit = 0;  ///< bytes, of the process and of the device; 0: what there is
-    double time_limit_s = 600;     ///< for a single build or query; 0: no limit
+    double time_limit_s = 600;     ///< for a single build, query or oracle; 0: no limit
     bool force = false;            ///< whether existing files may be replaced
     bool quiet = false;            ///< whether tables of results are not printed
     bool wide = false;             ///< whether tables may be wider than the terminal

@@ -111,6 +111,15 @@ std::size_t terminal_width(int file)
     return static_cast<std::size_t>(std::max(columns, 40L));
 }
 
+std::string so_far(const std::string& what, int seconds, std::size_t done, std::size_t total)
+{
+    if (done == 0)
+        return what + ", " + std::to_string(seconds) + " s";
+    const double rest = static_cast<double>(total - done) / static_cast<double>(done);
+    return what + ", about " + rough(seconds * rest) + " left, " + std::to_string(done) + " of " +
+           std::to_string(total) + " are done";
+}
+
 Progress::Progress(std::size_t total) : total_(total), is_shown_(isatty(STDERR_FILENO) == 1) {}
 
 void Progress::clear() const

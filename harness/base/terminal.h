@@ -39,6 +39,9 @@ std::size_t terminal_width(int file);
 /// Returns the number of characters, not bytes.
 std::size_t character_count(std::string_view text);
 
+/// Returns how far some work is after `seconds`, as "what, about 8 s left, 400 of 2000 are done"; with nothing done, as "what, 2 s".
+std::string so_far(const std::string& what, int seconds, std::size_t done, std::size_t total);
+
 /// Clears the progress line.
 constexpr const char* clear_line = "\r\033[K";
 

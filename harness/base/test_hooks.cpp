@@ -2,6 +2,7 @@
 #include "harness/base/test_hooks.h"
 
 #include <re2/re2.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
@@ -86,6 +87,12 @@ void stop_at(std::string_view stage, unsigned rank)
 {
     if (stops_at(stage, rank))
         std::raise(SIGSTOP);
+}
+
+void stop_thread_at(std::string_view stage)
+{
+    while (stops_at(stage, 0))
+        pause();
 }
 
 }  // namespace bvhbench

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Environment variables with which tests lengthen reported times, to check that comparisons detect it, or stop a rank of a cluster
-// at a stage, to kill it there. A run with any of them records them in its result file (`test_hooks`). Such a file is not plotted, and is compared only on request.
+// at a stage, to kill it there, or an oracle. A run with any of them records them in its result file (`test_hooks`). Such a file is
+// not plotted, and is compared only on request.
 // Another one shortens the start of a run.
 #pragma once
 
@@ -29,5 +30,8 @@ std::size_t most_copied();
 /// Stops this process by SIGSTOP if BVHBENCH_STOP, as "exchange:1", names this stage and rank of `cluster`. Throws BadUsage
 /// if the variable cannot be parsed.
 void stop_at(std::string_view stage, unsigned rank);
+
+/// The same of this thread alone, which waits for ever, and of rank 0.
+void stop_thread_at(std::string_view stage);
 
 }  // namespace bvhbench

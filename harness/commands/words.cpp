@@ -96,8 +96,9 @@ void add_common(CLI::App& app, CommonOptions& common)
         [&common](const std::string& text) { common.memory_limit = bytes_of(text); },
         "bytes that the program may take in all, and the device, as 512M or 2G; default: all there "
         "are");
-    app.add_option("--time-limit", common.time_limit_s,
-                   "seconds that a single build or query may take before it is given up; 0: no end")
+    app.add_option(
+           "--time-limit", common.time_limit_s,
+           "seconds that a single build, query or oracle may take before it is given up; 0: no end")
         ->capture_default_str()
         ->check(a_number(most_seconds));
     app.add_flag("--force", common.force, "replace files that are there, but none that is read");

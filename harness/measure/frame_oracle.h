@@ -3,9 +3,13 @@
 // The right pairs and contacts of a frame. The host computes them while the device compiles, or an earlier run has.
 #pragma once
 
+#include <unistd.h>
+
 #include <chrono>
 #include <future>
+#include <iostream>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,11 +19,14 @@
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/swept_reference.h"
 #include "collide/oracles/touching.h"
+#include "geometry/error.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/terminal.h"
+#include "harness/base/test_hooks.h"
 #include "harness/choice/catalog.h"
 #include "harness/judge/kept_answers.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 
@@ -43,17 +50,29 @@ private:
     std::optional<PairList> renumbered_;  ///< if the numbers differ
 };
 
+/// How far an oracle is.
+struct OracleProgress {
+    Checked done;
+    std::atomic<std::size_t> total = 0;  ///< candidates; 0: unknown
+};
+
 /// Pairs or contacts of a frame: what identifies them, and the list, which is computed only where it is needed.
 class Right {
 public:
     Right() = default;
 
-    /// Starts looking for a kept answer to `key`, and computing the list if there is none. `compute` returns an Answer.
+    /// Starts looking for a kept answer to `key`, and computing the list if there is none. `compute` is given what counts how
+    /// much is done, and returns an Answer. `what` is "pairs" or "contacts".
     template <class Compute>
-    Right(std::uint64_t key, Note note, Compute compute)
-        : list_(std::async(std::launch::deferred,
-                           [key, compute = std::move(compute)] {
-                               Answer answer = compute();
+    Right(std::uint64_t key, const std::string& what, Note note, Compute compute)
+        : oracle_("the oracle of " + what)
+        , name_("oracle " + hex(key))
+        , list_(std::async(std::launch::deferred,
+                           [key, why = watchdog::given_up(name_), oracle = oracle_,
+                            progress = progress_, compute = std::move(compute)] {
+                               if (!why.empty())
+                                   throw Unavailable(oracle + ' ' + why);
+                               Answer answer = compute(*progress);
                                keep_answer(key, answer.facts);
                                return answer;
                            }))
@@ -67,7 +86,8 @@ public:
 
     bool is_asked() const { return facts_.valid(); }
 
-    /// Blocks until facts() are there, or until it is known that there can be none.
+    /// Blocks until facts() are there, or until it is known that there can be none. If that takes longer than the time limit, an
+    /// oracle is given up, as it is if it crashes: facts() and list() of the next process throw Unavailable.
     void wait() const { wait_for(facts_); }
 
     /// Facts of the list, kept or computed. Blocks. Throws Unavailable if the host lacks the memory to list the pairs.
@@ -91,12 +111,21 @@ private:
     template <class Later>
     void wait_for(const Later& later) const
     {
+        const watchdog::Hand hand(name_);
+        const watchdog::Watch watch;
         for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
-             ++seconds)
+             ++seconds) {
+            const std::string text =
+                so_far(oracle_, seconds, progress_->done.all, progress_->total);
             if (note_)
-                note_("the oracle is checking, " + std::to_string(seconds) + " s", 0);
+                note_(text, 0);
+            if (seconds == 10 && terminal_width(STDERR_FILENO) == 0)
+                std::cerr << "bvhbench: " + text + '\n' << std::flush;
+        }
     }
 
+    std::string oracle_, name_;  ///< for people, and for the watchdog
+    std::shared_ptr<OracleProgress> progress_ = std::make_shared<OracleProgress>();
     std::shared_future<Answer> list_;  ///< deferred: the first who needs it computes it
     std::shared_future<RightFacts> facts_;
     Note note_;
@@ -132,7 +161,7 @@ public:
         const std::pair asked(choice.among, choice.keep_adjacent);
         Right& pairs = entries_[asked].pairs;
         if (!pairs.is_asked())
-            pairs = Right(key_of(asked, 'p'), note_, [this, asked] {
+            pairs = Right(key_of(asked, 'p'), "pairs", note_, [this, asked](OracleProgress&) {
                 require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
                 return Answer(touching_pairs(leaf_boxes(input_), input_.faces, asked.second,
                                              input_.objects, asked.first),
@@ -147,19 +176,23 @@ public:
         const std::pair asked(choice.among, choice.keep_adjacent);
         Right& contacts = entries_[asked].contacts;
         if (!contacts.is_asked())
-            contacts = Right(key_of(asked, 'c'), note_, [this, asked, pairs] {
-                const std::span<const Pair> candidates = pairs.get().list.pairs();
-                if (input_.is_swept())
-                    return Answer(pairs_of(touching_on_the_way(input_.points, input_.end_points,
-                                                               input_.faces, candidates)),
+            contacts =
+                Right(key_of(asked, 'c'), "contacts", note_, [=, this](OracleProgress& progress) {
+                    stop_thread_at("contacts");
+                    const std::span<const Pair> candidates = pairs.get().list.pairs();
+                    progress.total = candidates.size();
+                    if (input_.is_swept())
+                        return Answer(
+                            pairs_of(touching_on_the_way(input_.points, input_.end_points,
+                                                         input_.faces, candidates, &progress.done)),
+                            file_faces_);
+                    Answer answer(intersecting_pairs(input_.points, input_.faces, candidates,
+                                                     asked.second, &progress.done),
                                   file_faces_);
-                Answer answer(
-                    intersecting_pairs(input_.points, input_.faces, candidates, asked.second),
-                    file_faces_);
-                answer.facts.touching =
-                    only_touching(input_.points, input_.faces, answer.list.pairs());
-                return answer;
-            });
+                    answer.facts.touching =
+                        only_touching(input_.points, input_.faces, answer.list.pairs());
+                    return answer;
+                });
         return contacts;
     }
 

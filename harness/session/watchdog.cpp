@@ -107,7 +107,7 @@ struct Ending {
         std::ostringstream text;
         if (late)
             text << "took longer than " << limit_ms / 1000
-                 << " s and was ended; --time-limit gives a build or query more";
+                 << " s and was ended; --time-limit gives it more";
         else
             text << "crashed (signal " << WTERMSIG(status) << ')'
                  << possible_cause(WTERMSIG(status));
@@ -208,9 +208,12 @@ void go_on_with(const std::string& run_id) { tell(&Told::run, run_id); }
 
 void kernels_are_in(const std::string& folder) { tell(&Told::kernels, folder); }
 
-Hand::Hand(const std::string& cell) { tell(&Told::cell, cell); }
+Hand::Hand(const std::string& cell) : around_(told == nullptr ? "" : told->cell.data())
+{
+    tell(&Told::cell, cell);
+}
 
-Hand::~Hand() { tell(&Told::cell, {}); }
+Hand::~Hand() { tell(&Told::cell, around_); }
 
 Watch::Watch()
 {

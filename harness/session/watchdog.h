@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // OpenCL 1.2 has no call that stops a kernel that never ends. Therefore measuring runs in a child process. The parent waits and
-// kills the child when a build or query takes too long. After that or a crash, it starts another child, which records the lost
+// kills the child when a build, query or oracle takes too long. After that or a crash, it starts another child, which records the lost
 // cell as failed and measures the rest (docs/decisions/0012).
 #pragma once
 
@@ -14,7 +14,7 @@ namespace bvhbench {
 /// ending_signals() (harness/base/interrupt.h) on to the child. If another signal than those of a crash ends the child, it ends
 /// this process too.
 ///
-/// If a build or query exceeds `limit_s` or the child crashes during a cell of a run named by go_on_with(), another child
+/// If what a watchdog::Watch limits exceeds `limit_s` or the child crashes during a cell of a run named by go_on_with(), another child
 /// continues the run; outside of such a cell, Unavailable is thrown, as it is if no process can be made. With a limit of 0,
 /// `work` runs in this process without a watchdog.
 int supervised(double limit_s, const std::function<int()>& work);
@@ -35,16 +35,19 @@ void go_on_with(const std::string& run_id);
 /// code called abort, as a failed assertion does, or the address space is limited, which is then named instead.
 void kernels_are_in(const std::string& folder);
 
-/// Marks the work during its lifetime as done for `cell`.
+/// Marks the work during its lifetime as done for `cell`, and what follows as done for the cell of the Hand around it, if any.
 class Hand {
 public:
     explicit Hand(const std::string& cell);
     ~Hand();
     Hand(const Hand&) = delete;
     Hand& operator=(const Hand&) = delete;
+
+private:
+    std::string around_;
 };
 
-/// Limits the time of a build or query, from its construction to its destruction. A nested Watch has no effect.
+/// Limits the time of a build, query or oracle, from its construction to its destruction. A nested Watch has no effect.
 class Watch {
 public:
     Watch();

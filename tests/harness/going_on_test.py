@@ -53,6 +53,17 @@ def test_what_a_scene_builder_or_collider_has_not_is_a_cell():
             assert says in cell[2], (cell, says)
 
 
+def test_an_oracle_that_hangs_fails_the_cells_that_need_it():
+    pipelines = [{"builder": "perfect", "collider": name, "narrow": narrow}
+                 for name, narrow in (("leaf", "exact"), ("leaf", "none"), ("group", "exact"))]
+    plan = experiment("oracle.json", scenes=["soup:100", "soup:200"], pipelines=pipelines)
+    expect(0, "run", plan, "--out", "compiled.json")
+    expect(0, "run", plan, "--out", "oracle-out.json", "--time-limit", "5", says="6 cells, 2 agree", BVHBENCH_STOP="contacts:0")
+    late = "the oracle of contacts took longer than 5 s and was ended; --time-limit gives it more"
+    cells = cells_of("oracle-out.json")
+    assert [cell[1:] for cell in cells] == 2 * [("failed", late), ("measured", ""), ("failed", late)], cells
+
+
 def test_collide_and_accuracy_go_on_after_a_scene_that_is_not_there():
     expect(0, *LEAF, "--scene", "soup:10", "nonsense", "soup:20", "--samples", "1", "--json", "collide.json")
     assert [cell[:2] for cell in cells_of("collide.json")] == [("soup:10", "measured"), ("nonsense", "skipped"),

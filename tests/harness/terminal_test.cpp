@@ -27,5 +27,13 @@ TEST(Printable, KeepsTextAndBytesThatNoTerminalObeys)
         EXPECT_EQ(printable(text), text == std::string("\xe2\x80") ? "\xe2\\x80" : text);
 }
 
+TEST(SoFar, HasTheTimeToGoOnceSomethingIsDone)
+{
+    EXPECT_EQ(so_far("the oracle", 3, 0, 0), "the oracle, 3 s");
+    EXPECT_EQ(so_far("the oracle", 10, 100, 400),
+              "the oracle, about 30 s left, 100 of 400 are done");
+    EXPECT_EQ(so_far("the oracle", 10, 1, 61), "the oracle, about 10 min left, 1 of 61 are done");
+}
+
 }  // namespace
 }  // namespace bvhbench

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
 
 #include "geometry/error.h"
+#include "harness/measure/frame_oracle.h"
 
 namespace bvhbench {
 namespace {
@@ -52,6 +54,54 @@ TEST(Watchdog, NamesALimitOfAddressSpaceInstead)
 {
     EXPECT_EXIT((limit_address_space(), tell_end_of(&fault)), testing::ExitedWithCode(3),
                 "crashed .signal 11.; the limit of address space .ulimit -v. can be why");
+}
+
+/// Works in a cell of a run that goes on after a loss. Ends the process with code 3, and says on standard error why the cell was lost
+/// and why `work` failed.
+[[noreturn]] void tell_failure_of(void (*work)())
+{
+    std::_Exit(supervised(0.2, [work] {
+        watchdog::go_on_with("a run");
+        const watchdog::Hand hand("a cell");
+        try {
+            work();
+        } catch (const Unavailable& error) {
+            std::cerr << watchdog::given_up("a cell") << error.what() << '\n';
+            return 3;
+        }
+        return 0;
+    }));
+}
+
+void ask_an_oracle_that_hangs()
+{
+    const Right right(1, "contacts", {}, [](OracleProgress&) -> Answer {
+        for (;;)
+            pause();
+    });
+    right.list();
+}
+
+void crash_after_an_oracle()
+{
+    const Right right(1, "contacts", {}, [](OracleProgress&) { return Answer({}, {}); });
+    right.list();
+    if (watchdog::given_up("a cell").empty())
+        fault();
+    throw Unavailable("");
+}
+
+TEST(Watchdog, GivesUpTheOracleThatHangsAndNotTheCell)
+{
+    EXPECT_EXIT(tell_failure_of(&ask_an_oracle_that_hangs), testing::ExitedWithCode(3),
+                "^the oracle of contacts took longer than 0.2 s and was ended; --time-limit gives "
+                "it more\n$");
+}
+
+TEST(Watchdog, GivesUpTheCellThatCrashesAfterAnOracle)
+{
+    EXPECT_EXIT(tell_failure_of(&crash_after_an_oracle), testing::ExitedWithCode(3),
+                "^crashed .signal 11.");
 }
 
 }  // namespace
