@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/program.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "device/lifted_limit.h"
@@ -96,7 +97,8 @@ cl::Program Programs::build(std::string_view path, const std::string& text,
             message += '\n' + built_for.getInfo<CL_DEVICE_NAME>() + ":\n" + log;
         throw BuildFailure(message);
     }
-    compile_ns_ += std::chrono::nanoseconds(clock::now() - start).count();
+    compile_ns_ +=
+        std::max<std::int64_t>(0, std::chrono::nanoseconds(clock::now() - start).count());
     return program;
 }
 

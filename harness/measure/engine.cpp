@@ -47,7 +47,10 @@ std::int64_t host_ns(const std::function<void()>& work)
     using clock = std::chrono::steady_clock;
     const auto start = clock::now();
     work();
-    return std::chrono::nanoseconds(clock::now() - start).count();
+    const std::int64_t ns = std::chrono::nanoseconds(clock::now() - start).count();
+    if (ns < 0)
+        throw BadClock(false, "the host's clock went back");
+    return ns;
 }
 
 void Engine::refuse(Subject& subject, Cell::Status status, std::string reason)
@@ -159,8 +162,6 @@ std::vector<StageTime> Engine::from_host(Subject& subject)
         queue.on_host("read_back", subject.read_back);
         std::ranges::move(queue.finish(), std::back_inserter(stages));
     });
-    if (wall_ns_ < 0)
-        throw BadClock(false, "the host's clock went back");
     return stages;
 }
 

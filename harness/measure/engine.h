@@ -41,7 +41,7 @@ struct Subject {
 inline constexpr const char* no_copies_of_outside =
     "a method from outside gets its vertices through a file, which is no upload of its own";
 
-/// Runs `work` and returns its duration in nanoseconds of the host's clock.
+/// Runs `work` and returns its duration in nanoseconds of the host's clock. Throws BadClock if that is less than 0.
 std::int64_t host_ns(const std::function<void()>& work);
 
 class Engine {

@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -104,6 +105,32 @@ def test_samples_with_impossible_times_are_dropped_and_too_many_fail_the_cell():
     expect(4, "run", plan, "--out", "some-out.json", says="impossible times", **bad_clock("some"))
     cells = valid("some-out.json")["cells"]
     assert all(cell["status"] == "failed" and "--clock host" in cell["reason"] for cell in cells), cells
+    expect(0, "run", plan, "--out", "good-out.json")
+    compared = run("compare", "good-out.json", "some-out.json", "--allow-dirty")
+    assert compared.returncode == 1 and compared.stdout.count("failed (") == 2, compared
+    expect(4, "collide", "--builder", "oibvh-multi,karras", "--collider", "leaf", "--scene", "soup:300", "--samples", "3",
+           says="a launch began at 0 or ended before it began", **bad_clock("some"))
+    expect(4, "best", "soup:300", "--builders", "oibvh-multi", "--orders", "hilbert30", "--colliders", "leaf,group", "--out", "some-best.json",
+           says="a launch began at 0 or ended before it began", **bad_clock("some"))
+    smoke = run("smoke", **bad_clock("some"))
+    assert smoke.returncode == 1 and "regressions" in smoke.stdout, smoke
+
+
+def test_a_host_clock_that_steps_back_now_and_then_leaves_no_time_below_zero():
+    """Where in the program the steps fall is chance: each outcome is right but a time that cannot be."""
+    commands = (("build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "20", "--json", "jumped.json", "--force"),
+                ("collide", "--builder", "perfect", "--collider", "leaf", "--scene", "soup:300", "--samples", "20", "--json", "jumped.json",
+                 "--force"))
+    for words in commands:
+        pathlib.Path("jumped.json").unlink(missing_ok=True)
+        done = run(*words, **bad_clock("jumps"))
+        assert done.returncode in (0, 3, 4), done
+        assert done.returncode == 0 or "clock went back" in done.stderr, done
+        assert not re.search(r" -\d[\d.]* [num]?s\b", done.stdout), done
+        cells = valid("jumped.json")["cells"] if os.path.exists("jumped.json") else []
+        times = [value for cell in cells for sample in cell.get("samples", []) for entry in (sample, *sample["stages"])
+                 for key, value in entry.items() if key.endswith("_ns")]
+        assert all(value >= 0 for value in times), times
 
 
 def test_no_device_is_one_sentence():

@@ -185,7 +185,8 @@ struct Count<Call, cl_int(Handle)> {
 };
 
 /// Returns the clock that BVHBENCH_BAD_CLOCK makes wrong: of the device `zero`, `back` (each launch ends before it begins), `some`
-/// (one in seven does), `huge` or `slow` (a thousandth of the time passes), or that of the `host`, which steps back at each look.
+/// (one in seven does), `huge` or `slow` (a thousandth of the time passes), or that of the `host`, which steps back by a second at
+/// each look, or if `jumps` at one in fifty.
 std::string_view bad_clock()
 {
     static const char* const kind = std::getenv("BVHBENCH_BAD_CLOCK");
@@ -352,8 +353,12 @@ extern "C" int clock_gettime(clockid_t clock, timespec* time)
         reinterpret_cast<int (*)(clockid_t, timespec*)>(dlsym(RTLD_NEXT, "clock_gettime"));
     static std::atomic<time_t> looks = 0;
     const int status = real(clock, time);
-    if (clock == CLOCK_MONOTONIC && bad_clock() == "host")
+    if (clock != CLOCK_MONOTONIC && clock != CLOCK_REALTIME)
+        return status;
+    if (bad_clock() == "host")
         time->tv_sec -= ++looks;
+    else if (bad_clock() == "jumps")
+        time->tv_sec -= ++looks / 50;
     return status;
 }
 

@@ -239,11 +239,15 @@ def test_a_standard_output_that_fails_is_an_error():
 
 
 def test_names_cannot_command_a_terminal():
+    for name, spelled in (("\x1b[31mred\x07.obj", "\\x1b[31mred\\x07.obj"), ("sc\x9b31m\u202eY\u2066.obj", "sc\\x9b31m\\u202eY\\u2066.obj")):
+        done = run("build", "--builder", "median-split", "--scene", name)
+        assert done.returncode and spelled in done.stderr and name not in done.stderr, done
+        pathlib.Path(name).write_text(MESH)
+        for words in (("build", "--builder", "median-split", "--scene", name, "--samples", "1", "--json", "named.json", "--force"),
+                      ("show", "named.json"), ("scene", name)):
+            out = expect(0, *words)
+            assert spelled in out and name not in out, (words, out)
     name = "\x1b[31mred\x07.obj"
-    done = run("build", "--builder", "median-split", "--scene", name)
-    assert done.returncode and "\x1b" not in done.stderr and "\\x1b[31mred\\x07.obj" in done.stderr, done
-    pathlib.Path(name).write_text(MESH)
-    assert "\\x1b[31mred" in expect(0, "build", "--builder", "median-split", "--scene", name, "--samples", "1")
     ours, theirs = pty.openpty()
     with subprocess.Popen([PROGRAM, "run", of_scenes("x.json", name), "--out", "r.json"], stdout=theirs,
                           stderr=theirs) as process:

@@ -4,10 +4,12 @@ import contextlib
 import fcntl
 import os
 import pathlib
+import re
+import resource
 import shutil
 import sys
 
-from program import at_work, expect, main, run
+from program import at_work, expect, main, only, run, valid
 
 QUICK = ("build", "--builder", "median-split", "--scene", "soup:30", "--samples", "1")  # two kernels of one program
 
@@ -99,17 +101,48 @@ def test_kernels_that_cannot_be_kept_are_compiled_all_the_same():
            XDG_CACHE_HOME="/proc/no", POCL_CACHE_DIR="", TMPDIR="/proc/no")
 
 
+def test_limits_and_settings_of_the_user_change_no_answer():
+    """Limits of files and stack, one core, time zones and languages that do not exist, a home that is none, and no room for caches."""
+    usual = only_of(QUICK)
+    soft = {"files": (resource.RLIMIT_NOFILE, 16), "stack": (resource.RLIMIT_STACK, 256 << 10), "address space": (resource.RLIMIT_AS, 4 << 30)}
+    for what, (limit, value) in soft.items():
+        kept = resource.getrlimit(limit)
+        try:
+            resource.setrlimit(limit, (value, kept[1]))
+            assert only_of(QUICK) == usual, what
+        finally:
+            resource.setrlimit(limit, kept)
+    cores = os.sched_getaffinity(0)
+    try:
+        os.sched_setaffinity(0, {min(cores)})
+        assert only_of(QUICK) == usual
+    finally:
+        os.sched_setaffinity(0, cores)
+    for settings in ({"TZ": ":/nonsense"}, {"TZ": "Pacific/Apia", "LC_ALL": "xx_YY.UTF-8"}, {"LC_ALL": "de_DE.UTF-8"}, {"POCL_KERNEL_CACHE": "0"}):
+        assert only_of(QUICK, **settings) == usual, settings
+
+
+def only_of(words: tuple[str, ...], **settings: str) -> dict:
+    """Runs a command of one cell and returns its check. Tests that nothing is complained of, and that the file's times are in UTC."""
+    done = run(*words, "--json", "only.json", "--force", **settings)
+    assert done.returncode == 0 and not done.stderr, (settings, done)
+    assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?Z", valid("only.json")["run"]["started_at"])
+    return only("only.json")["check"]
+
+
 def test_settings_for_another_python_or_matplotlib_change_nothing():
     expect(0, "build", "--builder", "perfect", "--scene", "soup:30", "--samples", "12", "--json", "r.json")
     for name in ("numpy", "matplotlib", "statistics"):
         pathlib.Path("foreign").mkdir(exist_ok=True)
         pathlib.Path(f"foreign/{name}.py").write_text("raise ImportError('of another Python')")
-    reads = (("show", "r.json"), ("compare", "r.json", "r.json", "--allow-dirty"), ("report", "--brief", "r.json", "-o", "b.html", "--force"),
-             ("plot", "r.json", "--out", "drawn"))
+    reads = [("show", "r.json"), ("compare", "r.json", "r.json", "--allow-dirty"), ("report", "--brief", "r.json", "-o", "b.html", "--force"),
+             ("plot", "r.json", "--out", "drawn"), ("list", "devices")]
     usual = [expect(0, *words) for words in reads]
     pictures = {path.name: path.read_bytes() for path in pathlib.Path("drawn").iterdir()}
     assert any(name.endswith(".png") for name in pictures) and any(name.endswith(".svg") for name in pictures), pictures.keys()
-    for settings in ({"PYTHONHOME": "/nonexistent"}, {"PYTHONPATH": os.getcwd() + "/foreign"}, {"MPLBACKEND": "nonsense"}):
+    pathlib.Path("foreign/matplotlibrc").write_text("font.family: NoSuchFont\nsavefig.dpi: 20\nbackend: QtAgg\n")
+    for settings in ({"PYTHONHOME": "/nonexistent"}, {"PYTHONPATH": os.getcwd() + "/foreign"}, {"MPLBACKEND": "nonsense"},
+                     {"MATPLOTLIBRC": os.getcwd() + "/foreign/matplotlibrc"}, {"MPLBACKEND": "TkAgg", "DISPLAY": ":99"}):
         assert [expect(0, *words, **settings) for words in reads] == usual, settings
     for setting in ("text.usetex: True", "savefig.transparent: True", "font.size: 30", "figure.facecolor: red", "savefig.format: pdf"):
         pathlib.Path("matplotlibrc").write_text(setting)

@@ -23,6 +23,7 @@ MALFORMED = {
     "not a result file": b"[]",
     "not JSON": b"{\"format\": \"1.0\", ",
     "NaN is no number": b"[NaN]",
+    "Infinity is no number": b"[-Infinity]",
     "1e999 is too large a number": b"[1e999]",
     "nested too deeply": DEEP.encode(),
     "not text in UTF-8, at byte 2": b"[\"\xff\"]",
@@ -36,6 +37,7 @@ CHANGES = {  # of a cell
     "cells[0].samples[0].stages[0].span_ns is too large": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=10**400),
     "cells[0] has no 'check'": lambda cell: cell.pop("check"),
     "cells[0].samples[0].stages[0].span_ns is less than 0": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=-1),
+    "cells[0].samples[1].wall_ns is less than 1": lambda cell: cell["samples"][1].update(wall_ns=0),
     "cells[0] has no 'collider'": lambda cell: cell.update(operation="collide"),
     "cells[0].builder.options is nested more than": lambda cell: cell["builder"].update(options={"order": json.loads("[" * 50 + "]" * 50)}),
 }

@@ -323,6 +323,12 @@ class OfAFile(unittest.TestCase):
         made["cells"][0]["scene"]["name"] = "\x1b[31mred"
         self.assertIn(" on \\x1b[31mred, ", self.show(made))
 
+    def test_times_of_years_and_a_cell_without_samples_are_shown(self) -> None:
+        made = document(cell(ns=6 * 10**17))
+        self.assertIn("600000000 s", self.show(made))
+        made["cells"][0]["samples"] = []
+        self.assertIn("verdict: agrees", self.show(made))
+
     def test_a_counter_that_must_be_there_is_missed_in_a_sentence(self) -> None:
         raw = cell(operation="accuracy", accuracy={"axis": "sums", "method": "f32"})
         self.assertRegex(self.show(document(raw), code=3), "^bvhbench: .* a cell has no 'sah_cost'\n$")

@@ -88,6 +88,9 @@ static int prepare(void *state, const bvhbench_mesh *mesh)
 
 static int load(void *state, const float *points)
 {
+    if (is("writes-points"))
+        for (int axis = 0; axis < 3; ++axis)
+            ((float *)points)[axis] = 1e30f;
     ((State *)state)->points = points;
     return 0;
 }
@@ -164,11 +167,23 @@ static int build(void *state, bvhbench_stages *stages)
     if (is("chatty"))
         for (int k = 0; k < 5000; ++k)
             printf("a library that prints what it does, line %d\n", k);
+    if (is("stopped"))
+        raise(SIGSTOP);
+    if (is("ends"))
+        _exit(0);
+    if (is("loud"))
+        s->error = "\x1b[31mred\xc2\x9b\xff\nand two lines";
+    if (is("loud") || is("silent"))
+        return 1;
     if (is("stages")) {
         stages->count = 17;
         return 0;
     }
-    begin(stages, is("unknown-stage") ? "magic" : "build");
+    if (is("all-ones")) {
+        memset(stages, 0xff, sizeof *stages);
+        return 0;
+    }
+    begin(stages, is("unknown-stage") ? "magic" : is("wild-name") ? (const char *)16 : "build");
     s->node_count = s->entry_count = 0;
     add(s, 0, (uint32_t)s->mesh.triangles);
     refresh(s);
@@ -221,6 +236,10 @@ static int pairs(void *state, uint64_t *count, const uint32_t **two_each)
         --*count;
     if (is("false-triangle") && s->pair_count > 0)
         s->pairs[0] = (uint32_t)s->mesh.triangles;
+    if (is("no-array")) {
+        *count = (uint64_t)1 << 61;
+        *two_each = NULL;
+    }
     return 0;
 }
 
@@ -255,6 +274,8 @@ static void destroy(void *state)
     free(s->nodes);
     free(s->entries);
     free(s->pairs);
+    if (is("double-free"))
+        abort(); /* as a C library does that notices it */
     free(s);
 }
 
@@ -274,6 +295,9 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
         plugin.abi = BVHBENCH_PLUGIN_ABI + 1;
     if (is("dies-at-start"))
         abort();
+    if (is("hangs-at-start"))
+        for (;;)
+            pause();
     if (is("taken-name"))
         methods[0].name = "karras";
     if (is("bad-name"))

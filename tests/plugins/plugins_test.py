@@ -146,6 +146,10 @@ def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
 CALLS = {  # fault of the library: what the sentence of the builder's cell says
     "crash": "in `build`: it crashed (signal 11)",
     "exit": "in `build`: it ended with exit code 7; its last words: CUDA error 700",
+    "ends": "in `build`: it ended with exit code 0",
+    "silent": "in `build`: it says: it fails and does not say why",
+    "all-ones": "it gives 4294967295 stages, and 16 are allowed",
+    "wild-name": "in `build`: it crashed (signal 11)",
     "leak": "longer than the",
     "stages": "it gives 17 stages, and 16 are allowed",
     "unknown-stage": "no stage is called 'magic'",
@@ -172,10 +176,12 @@ def test_a_wrong_tree_has_no_time():
 
 
 def test_wrong_pairs_have_no_time():
-    found = cells(*COLLIDE, code=1, PLUGIN_FAULT="missed-pair")
-    assert found["halves"]["check"]["verdict"] == "differs" and not found["halves"]["samples"]
-    assert found["brute"]["check"]["verdict"] == "agrees"
+    for fault in ("missed-pair", "writes-points"):
+        found = cells(*COLLIDE, code=1, PLUGIN_FAULT=fault)
+        assert found["halves"]["check"]["verdict"] == "differs" and not found["halves"]["samples"]
+        assert found["brute"]["check"]["verdict"] == "agrees"
     refused(cells(*COLLIDE, PLUGIN_FAULT="false-triangle")["halves"], "it found a pair of 200 and ")
+    refused(cells(*COLLIDE, PLUGIN_FAULT="no-array")["halves"], "in `pairs`: it says: it gives no array of pairs")
 
 
 def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
@@ -193,9 +199,28 @@ def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
 
 
 def test_one_that_hangs_is_ended():
-    found = cells(*BUILD, "--time-limit", "2", PLUGIN_FAULT="hang")
-    refused(found["halves"], "in `build`: it took longer than 1.9 s and was ended; --time-limit")
-    assert found["median-split"]["check"]["verdict"] == "agrees"
+    for fault, call in (("hang", "build"), ("stopped", "build"), ("hangs-at-start", "hello")):
+        found = cells(*BUILD, "--time-limit", "2", PLUGIN_FAULT=fault)
+        refused(found["halves"], f"in `{call}`: it took longer than 1.9 s and was ended; --time-limit")
+        assert found["median-split"]["check"]["verdict"] == "agrees"
+
+
+def test_one_that_crashes_at_its_end_keeps_its_time():
+    assert cells(*BUILD, PLUGIN_FAULT="double-free")["halves"]["check"]["verdict"] == "agrees"
+
+
+def test_what_one_says_cannot_command_a_terminal_or_a_page():
+    control = re.compile("[\0-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+    words = ("collide", "--program", PLAIN, "--collider", "plain,brute", *QUICK, "--json", "r.json", "--force")
+    for fault in ("control", "control-error"):
+        said = [run(*words, PLUGIN_FAULT=fault), run("list", "colliders", "--program", PLAIN, PLUGIN_FAULT=fault), run("show", "r.json")]
+        for done in said:
+            assert done.returncode == 0 and not control.search(done.stdout + done.stderr), (fault, done)
+        assert "2Jname" in said[0].stdout, said[0]
+        expect(0, "report", "r.json", "-o", "page.html", "--force")
+        page = pathlib.Path("page.html").read_text()
+        assert "&lt;img src=x&gt;" in page and "<img src=x>" not in page
+    refused(cells(*BUILD, PLUGIN_FAULT="loud")["halves"], "in `build`: it says: ", "red")
 
 
 def test_one_that_takes_too_much_memory_is_ended():

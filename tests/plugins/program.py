@@ -10,6 +10,7 @@ import time
 from array import array
 
 FAULT = os.environ.get("PLUGIN_FAULT", "")
+CONTROL = "\x1b[2Jname\x07\x9b31m\u202e\u2066<img src=x>"
 METHOD = {"name": "plain", "summary": "every two boxes, in Python", "query": True, "pairs": True}
 
 
@@ -76,8 +77,10 @@ def values(kind, path):
 def hello():
     if FAULT == "dies-at-start":
         sys.exit("nothing works here")
-    return {"protocol": 2 if FAULT == "abi" else 1, "library": "Plain", "version": "2.0", "licence": "MIT", "device": "host",
-            "methods": [METHOD]}
+    hostile = FAULT in ("control", "control-error")
+    text = CONTROL if hostile else "Plain"
+    return {"protocol": 2 if FAULT == "abi" else 1, "library": text, "version": CONTROL if hostile else "2.0", "licence": "MIT",
+            "device": "host", "methods": [METHOD | {"summary": CONTROL} if hostile else METHOD]}
 
 
 def say(text):
@@ -99,6 +102,8 @@ for line in sys.stdin:
     elif call == "query" and FAULT == "endless":
         for _ in range(5000):
             say(1000 * "x")
+    elif call == "query" and FAULT == "control-error":
+        say(json.dumps({"error": CONTROL + "\nand two lines"}) + "\n")
     elif call == "query" and FAULT == "error":
         say('{"error": "there are too many pairs"}\n')
     else:
