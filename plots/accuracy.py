@@ -39,7 +39,7 @@ def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
     from_zero(grid[0].yaxis, [cell.counters["relative_error"] for cell in cells], 1e-17, 1e-16,
               lambda value: f"1e{round(math.log10(value))}", 6)
-    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
         points = [Point(1e9 * median_s(cell) / cell.counters["nodes_count"], cell.counters["relative_error"],
                         cell.accuracy["method"]) for cell in group]
         log_times(axes, points)
@@ -87,7 +87,7 @@ def draw_break_even(axes: plt.Axes, costs: list[Cost], most: float) -> None:
     for cost in costs:
         seen = look("codes", cost.method)
         is_best = cost.method == "radix" or any(cost is other for _, other in best)
-        axes.plot(counts, [cost.of(queries) / low for queries, low in zip(counts, least)], color=seen.colour,
+        axes.plot(counts, [cost.of(queries) / low for queries, low in zip(counts, least, strict=True)], color=seen.colour,
                   linewidth=1.4 if is_best else 0.5, zorder=3 if is_best else 2)
     for number, (queries, cost) in enumerate(best):
         seen = look("codes", cost.method)
@@ -154,7 +154,7 @@ def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
                           marker=seen.marker, label=method)
                 axes.set_xscale("symlog", linthresh=100, linscale=0.5)
                 axes.set_yscale("log")
-        for axes, name in zip(grid[:, column], ("pairs, for each right one", "frame, ms")):
+        for axes, name in zip(grid[:, column], ("pairs, for each right one", "frame, ms"), strict=True):
             figure.log_ticks(axes.yaxis, *axes.get_ylim())
             if column == 0:
                 axes.set_ylabel(name)
@@ -175,12 +175,12 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     inputs = by_input(cells)
     drawing, grid, columns = figure.panels(len(inputs), 2 if len(inputs) == 4 else 3, (1.1, 2.6), sharey=True)
     from_zero(grid[0].yaxis, [inflation(cell) for cell in cells], 1e-3, 1e-3, lambda value: f"{value:g}", 6)
-    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
         points = [Point(1e3 * median_s(cell, "broad"), inflation(cell), cell.accuracy["method"]) for cell in group]
         low, high = min(point.time for point in points), max(point.time for point in points)
         axes.set_xlim(low - 0.15 * (high - low) - 0.05 * high, high + 0.3 * (high - low) + 0.05 * high)
         draw_points(axes, "boxes", points)
-        for line, cell in zip(axes.lines[1:], group):  # the line of the front comes first, then one line for each point
+        for line, cell in zip(axes.lines[1:], group, strict=True):  # the line of the front comes first, then one line for each point
             line.set_markersize(2.2 * math.sqrt(cell.counters["node_bytes"]))
         axes.set_title(name, loc="left")
         axes.set_xlabel("query, ms")
@@ -197,7 +197,7 @@ def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     inputs = results.grouped(cells, lambda cell: f"{cell.scene},\n{cell.swept['pairs']}")
     drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
     from_zero(grid[0].yaxis, [cell.counters["false_count"] for cell in cells], 1, 1, lambda value: f"{value:,.0f}", 6)
-    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
         points = [Point(1e3 * median_s(cell, "narrow"), cell.counters["false_count"], cell.accuracy["method"]) for cell in group]
         log_times(axes, points)
         draw_points(axes, "impacts", points)

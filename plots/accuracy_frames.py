@@ -33,7 +33,7 @@ class Setting(NamedTuple):
 def setting_of(method: str, cells: list[results.Cell]) -> Setting:
     times = [results.quantiles(cell.times_s()) for cell in cells]
     missed, false = (int(sum(cell.counters[key] for cell in cells)) for key in ("missed_count", "false_count"))
-    return Setting(method, results.Quantiles(*(1e3 * sum(one) / len(times) for one in zip(*times))), missed, false)
+    return Setting(method, results.Quantiles(*(1e3 * sum(one) / len(times) for one in zip(*times, strict=True))), missed, false)
 
 
 def settings_of(cells: list[results.Cell]) -> list[Setting]:

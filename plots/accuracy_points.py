@@ -23,7 +23,7 @@ METHODS = {
               for curve, axis, colour in (("morton", "", "#0072B2"), ("morton", "-axis", "#56B4E9"),
                                           ("hilbert", "", "#009E73"), ("hilbert", "-axis", "#E69F00"))
               for grid, markers in (("", "oDs"), ("-scene", "v<^"))
-              for bits, marker in zip((30, 48, 63), markers)}
+              for bits, marker in zip((30, 48, 63), markers, strict=True)}
              | {"kd": Look("#CC79A7", "*"), "radix": Look("#000000", "P")},
     "input": {"f32": Look("#D55E00", "v"), "f32-recentred": Look("#0072B2", "o")},
     "boxes": {"f32": Look("#0072B2", "o"), "f64": Look("#56B4E9", "o"), "f16": Look("#CC79A7", "o"),

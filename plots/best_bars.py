@@ -42,10 +42,11 @@ def parts_of(row: Row, objective: str, by_wall: bool) -> list[Part]:
 def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, label: Callable[[Row], str]) -> set[tuple[str, str]]:
     """Draws the bars of one scene and returns the names and colours of their parts."""
     drawn = [parts_of(row, objective, by_wall) for row in rows]
-    wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns for row, parts in zip(rows, drawn)]
+    wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns
+              for row, parts in zip(rows, drawn, strict=True)]
     limit = frames.MOST * wholes[0]
     unit = "MB" if objective == "memory" else "ms"
-    for place, (row, parts, whole) in enumerate(zip(rows, drawn, wholes)):
+    for place, (row, parts, whole) in enumerate(zip(rows, drawn, wholes, strict=True)):
         mark = "=" if row.tied and place else f"× {answer.number(row.ratio)}"
         frames.bar(axes, place, [part[1:] for part in parts], limit, f"{three_digits(whole)} {unit}" + (f"  {mark}" if place else ""))
     pipelines.dress_rows(axes, [label(row) for row in rows])
@@ -60,7 +61,8 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
     heights = [len(rows) + 2.2 for rows in scenes]
     drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(heights) + 0.9), squeeze=False,
                                  height_ratios=heights, layout="constrained")
-    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label) for axes, rows in zip(grid[:, 0], scenes)))
+    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label)
+                          for axes, rows in zip(grid[:, 0], scenes, strict=True)))
     what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \

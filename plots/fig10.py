@@ -20,7 +20,7 @@ def draw(run: results.Run) -> plt.Figure:
         raise results.Refused(f"{run.path}: no pipeline of table2 counts its node pairs (bvtt_peak_count)")
     drawing, panels = pipelines.panels(scenes, 2.4)
     values = []
-    for axes, shown in zip(panels, scenes.values()):
+    for axes, shown in zip(panels, scenes.values(), strict=True):
         for row, pipeline in enumerate(shown):
             peak, pairs = pipeline.later.mean("bvtt_peak_count"), pipeline.later.mean("pairs_count")
             values.append(peak)

@@ -6,6 +6,7 @@
 Medians, with a band from the 10th to the 90th percentile. Marked is the size from which on the multi-kernel
 construction stays ahead of the single-kernel one, beside the size the paper gives for its machine.
 """
+import itertools
 import math
 import sys
 
@@ -33,7 +34,7 @@ def crossing(single: Curve, multi: Curve) -> float | None:
     other = {triangles: seconds.median for triangles, seconds, _ in multi}
     ahead = [(math.log2(triangles), math.log(seconds.median / other[triangles]))
              for triangles, seconds, _ in single if triangles in other]
-    for (x0, lead0), (x1, lead1) in reversed(list(zip(ahead, ahead[1:]))):
+    for (x0, lead0), (x1, lead1) in reversed(list(itertools.pairwise(ahead))):
         if lead1 <= 0:
             return None
         if lead0 <= 0:
@@ -61,7 +62,7 @@ def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None
     middle = math.sqrt(min(sizes) * max(sizes))
     texts = [f"paper: multi ahead\nfrom $2^{{{math.log2(paper):.0f}}}$ ({results.printed_device('fig8')})",
              f"here: multi ahead\nfrom $2^{{{math.log2(ours):.1f}}}$" if ours else ""]
-    for axes, (paper_text, our_text) in zip(panels, (texts, ("", ""))):
+    for axes, (paper_text, our_text) in zip(panels, (texts, ("", "")), strict=True):
         if min(sizes) <= paper <= max(sizes):
             left = paper < ours if ours else paper > middle  # away from the other text, or towards the middle
             mark_crossing(axes, paper, paper_text, ":", "left" if left else "right")

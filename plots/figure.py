@@ -76,7 +76,7 @@ def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.
          **line: object) -> None:
     """Draws medians as a line, and a band from the 10th to the 90th percentile. `scaled` converts the values to be drawn."""
     sizes = numpy.array([size for size, _ in points])
-    first, middle, last = (scaled(numpy.array(column)) for column in zip(*(found for _, found in points)))
+    first, middle, last = (scaled(numpy.array(column)) for column in zip(*(found for _, found in points), strict=True))
     axes.fill_between(sizes, numpy.minimum(first, last), numpy.maximum(first, last), color=look.colour, alpha=alpha, linewidth=0)
     axes.plot(sizes, middle, color=look.colour, marker=look.marker, **line)
 

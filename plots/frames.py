@@ -23,7 +23,7 @@ EXPERIMENTS = {
     "pairs": "A frame is all from vertices to pairs of overlapping boxes, in one set of triangles.",
 }
 # The stages of each part of a frame, and its colour.
-PARTS = tuple(zip(names.PARTS, ("#999999", "#56B4E9", "#0072B2", "#009E73", "#E69F00", "#D55E00")))
+PARTS = tuple(zip(names.PARTS, ("#999999", "#56B4E9", "#0072B2", "#009E73", "#E69F00", "#D55E00"), strict=True))
 BETWEEN = "#DDDDDD"
 MOST = 12  # longest bar drawn, in multiples of the scene's shortest bar
 SHORTENED = f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; the stages keep their shares."
@@ -68,7 +68,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
     wholes = [float(pipeline.frame_ms().mean()) for pipeline in shown]
     limit = MOST * min(wholes)
     end = max(min(whole, limit) for whole in wholes)
-    for row, (pipeline, whole, first) in enumerate(zip(shown, wholes, firsts)):
+    for row, (pipeline, whole, first) in enumerate(zip(shown, wholes, firsts, strict=True)):
         text = f"{tables.three_digits(whole)} ms" + (f", first {tables.three_digits(first)}" if first is not None else "")
         bar(axes, row, parts_of(pipeline), limit, text)
     axes.set_xlim(0, ROOM * end)
@@ -93,8 +93,8 @@ def panels_for(scenes: dict[str, list[pipelines.Pipeline]]) -> tuple[plt.Figure,
 def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> plt.Figure:
     scenes = pipelines.of(run, experiment)
     drawing, panels, columns = panels_for(scenes)
-    shortened = [draw_scene(axes, shown) for axes, shown in zip(panels, scenes.values())]
-    for axes, shown in zip(panels, scenes.values()):
+    shortened = [draw_scene(axes, shown) for axes, shown in zip(panels, scenes.values(), strict=True)]
+    for axes, shown in zip(panels, scenes.values(), strict=True):
         pipelines.dress(axes, shown)
     shown = list(scenes.values())
     for place, axes in enumerate(panels):

@@ -16,7 +16,7 @@ def spread(frames: Sequence[Cell], by_host: bool) -> tuple[float, float, float]:
         of_processes = [quantiles(times_ms(process, by_host)) for process in cell.processes]
         medians = [one.median for one in of_processes]
         each.append((quantiles(times_ms(cell, by_host)).median, max(one.p90 - one.p10 for one in of_processes), max(medians) - min(medians)))
-    middle, within, between = (sum(values) / len(each) for values in zip(*each))
+    middle, within, between = (sum(values) / len(each) for values in zip(*each, strict=True))
     return middle, within / middle, between / middle
 
 

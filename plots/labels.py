@@ -1,4 +1,5 @@
 """Places short labels beside points of a scatter plot so that none covers another label or a point."""
+import itertools
 import math
 from typing import NamedTuple
 
@@ -80,7 +81,7 @@ def offsets(points: list[Place], texts: list[str], frame: Box, lines: list[Line]
     placed: list[Box] = []
     lines = list(lines)
     found = []
-    for (x, y), text in zip(points, texts):
+    for (x, y), text in zip(points, texts, strict=True):
         least = math.inf
         for radius, place in places_around(x, y):
             box = box_at(*place, text)
@@ -110,8 +111,8 @@ def draw(axes: plt.Axes, labels: list[Label], path: list[Place] = ()) -> None:
 
     points, path = placed([(label.x, label.y) for label in labels]), placed(path)
     frame = Box(*(to_points * axes.get_window_extent().extents))
-    found = offsets(points, [label.text for label in labels], frame, list(zip(path, path[1:])))
-    for label, (dx, dy) in zip(labels, found):
+    found = offsets(points, [label.text for label in labels], frame, list(itertools.pairwise(path)))
+    for label, (dx, dy) in zip(labels, found, strict=True):
         line = {"arrowstyle": "-", "color": label.colour, "linewidth": 0.4, "shrinkA": 0, "shrinkB": POINT}
         axes.annotate(label.text, (label.x, label.y), (dx, dy), textcoords="offset points", ha="center",
                       va="center_baseline", fontsize=HEIGHT, color=label.colour, zorder=5, annotation_clip=False,

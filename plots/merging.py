@@ -128,7 +128,7 @@ def joined(parts: list[Part]) -> tuple[list[Json], int]:
     """Returns each cell once, with the samples of all parts, and 0. What was not measured in one part was not measured. Raises
     WrongUsage if a part lacks a cell, is of several runs itself, or found something else."""
     keyed_parts = [dict(keyed(part, "cells")) for part in parts]
-    for part, cells_of_part in zip(parts, keyed_parts):
+    for part, cells_of_part in zip(parts, keyed_parts, strict=True):
         if len(part.runs) > 1 or part.document.get("stress"):
             raise WrongUsage(f"{part.origin} is not what one process of `run`, `build` or `collide` wrote")
         for key in keyed_parts[0].keys() ^ cells_of_part.keys():
@@ -143,7 +143,7 @@ def join(parts: list[Part], same: list[Json]) -> Json:
     for cell in same:
         if cell["status"] != "measured":
             return cell
-    for part, cell in zip(parts, same):
+    for part, cell in zip(parts, same, strict=True):
         if answers_of(cell) != answers_of(same[0]):
             raise WrongUsage(f"{parts[0].origin} and {part.origin} do not agree on {called(cell)}: {answers_of(same[0])} and "
                              f"{answers_of(cell)}")

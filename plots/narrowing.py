@@ -13,9 +13,9 @@ class Fitted:
 
     def __init__(self, titles: list[str], aligns: list[str], rows: list[list[str]], width: int) -> None:
         self.titles, self.aligns, self.width = titles, aligns, width
-        self.columns = [list(column) for column in zip(*rows)] if rows else [[] for _ in titles]
+        self.columns = [list(column) for column in zip(*rows, strict=True)] if rows else [[] for _ in titles]
         self.shown = list(range(len(titles)))
-        self.limits = [max(map(len, (title, *column))) for title, column in zip(titles, self.columns)]
+        self.limits = [max(map(len, (title, *column))) for title, column in zip(titles, self.columns, strict=True)]
         self.above = self.take_constant(len(rows))
         self.wrap(WRAPPED)
         places = {self.titles[place]: place for place in self.shown}

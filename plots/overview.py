@@ -36,7 +36,7 @@ def draw(run: results.Run) -> figure.plt.Figure:
     rows = [min(len(bars), MOST_BARS) + 2.6 for _, bars in panels]
     drawing, grid = figure.plt.subplots(len(panels), 1, figsize=(style.PAGE_WIDTH, ROW * sum(rows) + 0.5), squeeze=False,
                                         height_ratios=rows, layout="constrained")
-    for axes, (key, bars) in zip(grid.flat, panels):
+    for axes, (key, bars) in zip(grid.flat, panels, strict=True):
         draw_panel(axes, *key, bars[:MOST_BARS])
         left_out += [f"{key[1]}: {len(bars) - MOST_BARS} slower ones not drawn."] if len(bars) > MOST_BARS else []
     clock = " by the wall clock" if is_by_wall(cell for _, bars in panels for _, _, cell in bars) else ""

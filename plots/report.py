@@ -74,7 +74,8 @@ def text_of(name: str) -> str:
 def titles_of(files: list[pathlib.Path]) -> list[str]:
     """Returns each file's name, preceded by its folder if another file has the same name."""
     names = [json_files.name_of(path) for path in files]
-    return [text_of(name if names.count(name) == 1 else f"{path.resolve().parent.name}/{name}") for path, name in zip(files, names)]
+    return [text_of(name if names.count(name) == 1 else f"{path.resolve().parent.name}/{name}")
+            for path, name in zip(files, names, strict=True)]
 
 
 def unlinked(table: dict[str, Any]) -> dict[str, Any]:
@@ -97,7 +98,7 @@ def in_brief(path: pathlib.Path, data: dict[str, Any]) -> tuple[dict[str, Any], 
 def make(files: list[pathlib.Path], views: list[pathlib.Path], is_brief: bool) -> tuple[str, bool]:
     """Returns the page and whether an answer was wrong. Raises results.Refused."""
     blobs, sections, is_wrong, summary, found = [], [], False, [], []
-    for number, (path, title) in enumerate(zip(files, titles_of(files))):
+    for number, (path, title) in enumerate(zip(files, titles_of(files), strict=True)):
         document = results.document_of(path)
         cells = [Cell(cell) for cell in document["cells"]]
         try:

@@ -51,7 +51,7 @@ class Table:
         return {"title": self.title, "note": noted(self.note, self.cells), "libraries": of_libraries(self.cells),
                 "columns": [column for column, _ in self.columns],
                 "cells": [place for place, _ in self.cells],
-                "rows": [list(row) for row in zip(*(values for _, values in self.columns))]}
+                "rows": [list(row) for row in zip(*(values for _, values in self.columns), strict=True)]}
 
 
 def noted(note: str, cells: Cells) -> str:

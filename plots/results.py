@@ -128,7 +128,7 @@ def changes_text(program: dict[str, Any]) -> str:
 def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
     """Returns the costs of an inner node and a triangle. Files before format 1.2 have the default costs."""
     costs = facts.get("node_costs", {})
-    return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS))
+    return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS, strict=True))
 
 
 def costs_text(costs: tuple[float, float]) -> str:

@@ -73,7 +73,7 @@ def query_lines(run: results.Run, stage: str) -> list[Line]:
     trees = {style.series_of(cells[0]) for cells in groups if cells[0].builder != "none"}
     among = [(cells[0].collider, cells[0].called) for cells in groups]
     lines = []
-    for cells, series in zip(groups, among):
+    for cells, series in zip(groups, among, strict=True):
         first = cells[0]
         alone = len(trees) == 1 or first.builder == "none"
         label = names.variant(first.collider, dict(first.collider_options)) if alone else first.called
@@ -108,7 +108,7 @@ def draw(run: results.Run) -> plt.Figure:
     stages = builds | queries
     drawing, panels, columns = figure.panels(len(stages), COLUMNS, (0.7, 1.9))
     sizes = [size for lines in stages.values() for line in lines for size, _ in line.points]
-    for axes, (stage, lines) in zip(panels, stages.items()):
+    for axes, (stage, lines) in zip(panels, stages.items(), strict=True):
         draw_panel(axes, stage, lines, sizes)
     if builds:
         scale(panels[:len(builds)])
@@ -118,7 +118,7 @@ def draw(run: results.Run) -> plt.Figure:
         axes.set_ylabel("time over its floor")
     handles: dict[str, plt.Line2D] = {}
     for axes in panels:
-        for handle, label in zip(*axes.get_legend_handles_labels()):
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
     height = figure.legend_above(drawing, list(handles.values()), 3)
     rate = (f"Floor: bytes at {run.copy_rate * 1e-9:,.1f} GB/s, read plus written, and launches at "

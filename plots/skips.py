@@ -40,12 +40,12 @@ def draw_scene(panels: list[plt.Axes], scene: list[Saving], rules: list[str], lo
         place = rules.index(one.rule) + (list(looks).index(one.pipeline) - (len(looks) - 1) / 2) * step
         face = "white" if one.is_forced else colour
         values = (savings.times(one), 100 * one.share(one.work))
-        for axes, value in zip(panels, values):
+        for axes, value in zip(panels, values, strict=True):
             axes.plot(value, place, marker=marker, color=colour, markerfacecolor=face, markersize=3.5, linestyle="none", zorder=3)
     for row, rule in enumerate(rules):
         there = [one for one in scene if one.rule == rule]
         if not any(one.skips_something for one in there):
-            for axes, (x, align) in zip(panels, ((1.02, "left"), (50, "center"))):
+            for axes, (x, align) in zip(panels, ((1.02, "left"), (50, "center")), strict=True):
                 axes.text(x, row, NOTHING if there else "not measured", fontsize=style.SMALL, color="#777777", va="center", ha=align)
 
 
@@ -58,7 +58,7 @@ def draw(run: results.Run) -> plt.Figure:
     scenes = results.grouped(found, lambda one: one.first.scene)
     drawing, grid = plt.subplots(len(scenes), 2, figsize=(style.PAGE_WIDTH, 1.1 + len(scenes) * (0.45 + ROW * len(rules))),
                                  squeeze=False, width_ratios=(3, 2), layout="constrained", sharex="col", sharey=True)
-    for panels, (scene, those) in zip(grid, scenes.items()):
+    for panels, (scene, those) in zip(grid, scenes.items(), strict=True):
         draw_scene(list(panels), those, rules, looks)
         panels[0].axvline(1, color="#888888", linewidth=0.8, zorder=1)
         panels[0].set_yticks(range(len(rules)), rules)

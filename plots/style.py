@@ -169,6 +169,6 @@ def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathl
     contents = [content(figure, path.suffix) for path in paths]
     plt.close(figure)
     output.make_folder(folder)
-    for path, made in zip(paths, contents):
+    for path, made in zip(paths, contents, strict=True):
         output.write(path, made)
     return paths

@@ -53,7 +53,7 @@ def frame_figures(run: results.Run, experiment: str) -> Iterator[tuple[str, figu
     for asked, cells in results.grouped(run.all_frames(experiment), asked_of).items():
         if len({(cell.scene, cell.called) for cell in cells}) > MOST_BARS:
             continue
-        said = [f"{key} {value}" for (key, usual), value in zip(ANSWERS.items(), asked) if value != usual]
+        said = [f"{key} {value}" for (key, usual), value in zip(ANSWERS.items(), asked[:-1], strict=True) if value != usual]
         said += [asked[-1]] if asked[-1] else []
         remarks = (FRAME + (f" Asked for: {', '.join(said)}." if said else ""),)
         shown = dataclasses.replace(run, cells=cells)

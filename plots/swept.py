@@ -70,7 +70,7 @@ def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> 
     rows = [len(steps) for steps in scenes.values()]
     drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, 1.2 + 0.5 * len(rows) + ROW * sum(rows)),
                                  squeeze=False, layout="constrained", height_ratios=[count + 1.5 for count in rows])
-    for axes, steps in zip(grid[:, 0], scenes.values()):
+    for axes, steps in zip(grid[:, 0], scenes.values(), strict=True):
         for row, step in enumerate(steps):
             pairs = step.total("pairs_count") * 1e-6
             colour = pipelines.Pipeline(step.first.scene, step.cells).colour

@@ -41,7 +41,7 @@ def draw(run: results.Run, table: str = "table2") -> plt.Figure:
     drawing, panels = pipelines.panels(scenes, 2.2)
     values: list[float] = []
     methods: dict[str, None] = {}
-    for axes, (scene, shown) in zip(panels, scenes.items()):
+    for axes, (scene, shown) in zip(panels, scenes.items(), strict=True):
         of = shown[0].first.stand_in_for or scene
         lines = [line for line in results.printed(table)["rows"] if line["scene"] == of]
         draw_scene(axes, shown, lines)

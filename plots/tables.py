@@ -31,7 +31,7 @@ class Table:
         """Returns the titles, if any column has one, then the rows, each ended by a newline."""
         if terminal.screen.width is not None and any(self.titles) and self.rows:
             return self.fitted(terminal.screen.width)
-        widths = [max(map(len, column)) for column in zip(self.titles, *self.rows)]
+        widths = [max(map(len, column)) for column in zip(self.titles, *self.rows, strict=True)]
         titles = self.line(self.titles, widths, self.aligns) if any(self.titles) else ""
         best = self.best()
         return titles + "".join(self.line(row, widths, self.aligns, row_number in best) for row_number, row in enumerate(self.rows))
@@ -54,7 +54,7 @@ class Table:
     @staticmethod
     def line(entries: Sequence[str], widths: list[int], aligns: list[str], is_best: bool = False) -> str:
         """Returns one line. Verdicts, in columns of text after the first, have the colour of what they say."""
-        padded = [f"{entry:{align}{width}}" for entry, align, width in zip(entries, aligns, widths)]
+        padded = [f"{entry:{align}{width}}" for entry, align, width in zip(entries, aligns, widths, strict=True)]
         last = max((place for place, entry in enumerate(entries) if entry), default=-1)
         padded = [text.rstrip(" ") if place == last else text for place, text in enumerate(padded[:last + 1])]
         usual = terminal.BOLD if is_best else ""

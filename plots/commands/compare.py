@@ -62,7 +62,7 @@ def main(words: list[str]) -> int:
         print(text, end="")
         return 1 if regressions else 0
     parts = [documents.read(str(name)) for name in files]
-    for one, other in zip(range(half), range(half, len(files))):
+    for one, other in zip(range(half), range(half, len(files)), strict=True):
         require_comparable((files[one], parts[one]), (files[other], parts[other]), rules)
     names = files[0], files[half]
     first, second = sides.side_of(files[:half], parts[:half]), sides.side_of(files[half:], parts[half:])

@@ -116,7 +116,7 @@ def main(words: list[str]) -> int:
     settings = f"{arguments.doubles or USUAL_DOUBLES} {float(arguments.sah_inner)} {float(arguments.sah_triangle)}"
     every = units_of(sweep, arguments.together == "scene", settings)
     shards = shards_of(every, shard.of)
-    units = [unit for unit, own in zip(every, shards) if own == shard.number]
+    units = [unit for unit, own in zip(every, shards, strict=True) if own == shard.number]
     line = f"{sweep.name}: {sweep.product}: {tables.counted(len(sweep.cells), 'cell')}"
     if none := sum(bool(one.why_not) for one in sweep.cells):
         line += f", {none} of which cannot be"
@@ -131,8 +131,8 @@ def main(words: list[str]) -> int:
 
 def cells_table(sweep: Sweep, units: list[Unit], shards: list[int], shard: Shard) -> str:
     table = tables.Table("<scene", "triangles", "<what", "shard", "<")
-    rows = [(one, "" if shard.is_all else str(own), "") for unit, own in zip(units, shards) if shard.is_all or own == shard.number
-            for one in unit.cells]
+    rows = [(one, "" if shard.is_all else str(own), "") for unit, own in zip(units, shards, strict=True)
+            if shard.is_all or own == shard.number for one in unit.cells]
     rows += [(one, "", f"cannot be: {one.why_not}") for one in sweep.cells if one.why_not and shard.number == 1]
     for one, own, why in rows:
         table.row(one.cell.scene, tables.whole(one.triangles or None), one.cell.pipeline, own, why)

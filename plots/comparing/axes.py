@@ -67,7 +67,7 @@ def between_builders(paths: tuple[pathlib.Path, pathlib.Path], first: Document, 
     """Returns the cells of the first builder in the first document, and those of the second in the second, under one name, so
     that they are the same cells to a comparison. Raises WrongUsage if there are none, or if they share no scene and options."""
     made = []
-    for path, document, builder in zip(paths, (first, second), builders):
+    for path, document, builder in zip(paths, (first, second), builders, strict=True):
         cells = [copy.copy(raw) for raw in document["cells"] if raw["builder"]["name"] == builder]
         if not cells:
             there = dict.fromkeys(raw["builder"]["name"] for raw in document["cells"])

@@ -48,7 +48,7 @@ def compare(first: Named, second: Named, rules: Rules, show_all: bool) -> tuple[
     for name in (name for name in before if name in after):
         pair = before[name], after[name]
         require_pair((first[0], pair[0]), (second[0], pair[1]), rules)
-        for found, messages in zip((regressions, changes), facts(*pair)):
+        for found, messages in zip((regressions, changes), facts(*pair), strict=True):
             found += [name + message for message in messages]
         is_same = choices(pair[0]) == choices(pair[1])
         for stage, change in time_changes(*pair, rules):

@@ -83,7 +83,7 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
     def change(first: times.Times, second: times.Times) -> times.TimeChange:
         return times.time_change(first, second, rules.threshold, comparison.error_of_each, spread, common)
 
-    for cell, pair in zip(cells, whole):
+    for cell, pair in zip(cells, whole, strict=True):
         cell.time = change(*pair)
         stages = [entry["stage"] for entry in cell.first.all_samples[0]["stages"]]
         if len(stages) > 1:

@@ -1,4 +1,5 @@
 """The two sides of a comparison. A side is the result file of one process, or of several that ran the same command."""
+import itertools
 import json
 import pathlib
 from collections.abc import Sequence
@@ -23,7 +24,7 @@ def side_of(files: Sequence[pathlib.Path], documents: Sequence[Document]) -> Doc
     """Returns one document with the samples of all. Raises WrongUsage for files that are not of one command."""
     if len(files) == 1:
         return documents[0]
-    named = [(str(file), document) for file, document in zip(files, documents)]
+    named = [(str(file), document) for file, document in zip(files, documents, strict=True)]
     return json.loads(merge(named, processes=True).text)
 
 
@@ -48,7 +49,7 @@ def sides_of(first: Document, second: Document) -> Sides:
     if not is_several or len(one) != len(other):
         why = "the spread between processes is not known, for which each side needs the same number of them, two or more"
     else:
-        starts = [[each.get("started_at", "") for each in pair] for pair in zip(one, other)]
-        if any(max(before) > min(after) for before, after in zip(starts, starts[1:])):
+        starts = [[each.get("started_at", "") for each in pair] for pair in zip(one, other, strict=True)]
+        if any(max(before) > min(after) for before, after in itertools.pairwise(starts)):
             why = "the processes of both sides did not take turns, so the machine may have changed between the sides"
     return Sides(not why, why, warnings_of(one, other))

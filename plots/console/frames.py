@@ -45,7 +45,7 @@ def text(run: results.Run, printed: str = "") -> str:
     table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", *["wall"] * has_wall, "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []
     names = [cells[0].scene_facts["name"] for cells in groups]
-    for cells, name, next_name in zip(groups, names, [*names[1:], None]):
+    for cells, name, next_name in zip(groups, names, [*names, None][1:], strict=True):
         first = cells[0]
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
         later = cells[1:] or cells

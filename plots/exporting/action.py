@@ -13,7 +13,7 @@ def text(runs: list[Run]) -> str:
     on standard error counts the other cells, because the format has no word for them."""
     cells = [(run, cell) for run in runs for cell in run.all_cells]
     entries = []
-    for (_, cell), name in zip(cells, names_of(cells)):
+    for (_, cell), name in zip(cells, names_of(cells), strict=True):
         if cell.has_times:
             low, middle, high = quantiles(cell.times_ns())
             entries.append({"name": name, "unit": "ns", "value": middle, "range": f"{exact(low)} – {exact(high)}",

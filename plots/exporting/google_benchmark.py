@@ -45,7 +45,7 @@ def benchmarks(runs: list[Run]) -> Iterator[Entry]:
     cells: list[Owned] = [(run, cell) for run in runs for cell in run.all_cells]
     families: dict[tuple[str, str], int] = {}
     instances: dict[int, int] = {}
-    for (_, cell), name in zip(cells, names_of(cells)):
+    for (_, cell), name in zip(cells, names_of(cells), strict=True):
         family = families.setdefault((cell.experiment, cell.asked), len(families))
         for series_name, entries in series_of(cell, name):
             place = instances[family] = instances.get(family, -1) + 1

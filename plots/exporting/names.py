@@ -25,7 +25,7 @@ def names_of(cells: list[Owned]) -> list[str]:
     names = [name_of(cell) for _, cell in cells]
     files = {name: len({id(run) for run, _ in those}) for name, those in grouped(cells, lambda one: name_of(one[1])).items()}
     titles = titles_of(list(dict.fromkeys(id(run) for run, _ in cells)), {id(run): run for run, _ in cells})
-    names = [f"{name}/file:{titles[id(run)]}" if files[name] > 1 else name for name, (run, _) in zip(names, cells)]
+    names = [f"{name}/file:{titles[id(run)]}" if files[name] > 1 else name for name, (run, _) in zip(names, cells, strict=True)]
     times: dict[str, int] = {}
     numbered = []
     for name in names:

@@ -61,7 +61,7 @@ class Sweep:
 
 
 def settled(planned: list[Planned], sweep: Sweep, settle: Settle) -> list[Planned]:
-    for one, answer in zip(planned, settle([sweep.experiment([one]) for one in planned])):
+    for one, answer in zip(planned, settle([sweep.experiment([one]) for one in planned]), strict=True):
         one.why_not = answer.get("error", "")
         one.raw = unsettled(one, sweep) if one.why_not else answer["cells"][0]
         if not one.why_not:

@@ -72,8 +72,8 @@ def swept_of(described: Json, settle: Settle) -> Sweep:
     trees = [answer["cells"][0]["builder"]["name"] != NO_BUILDER for answer in of_colliders] or [True]
     planned = [with_options(Planned(dict(scene), dict(builder) if wants_tree else None, dict(collider) if collider else None, {},
                                     about["triangles"], about["files"]), options, chosen)
-               for (scene, about), builder, (collider, wants_tree) in itertools.product(zip(scenes, of_scenes), builders,
-                                                                                        zip(colliders, trees))
+               for (scene, about), builder, (collider, wants_tree) in itertools.product(zip(scenes, of_scenes, strict=True), builders,
+                                                                                        zip(colliders, trees, strict=True))
                for chosen in itertools.product(*(values for _, values in options))]
     sweep.cells = each_once(settled(planned, sweep, settle))
     counts = [("scene", len(scenes))]
@@ -93,7 +93,7 @@ def scenes_of(described: Json, sweep: Sweep, settle: Settle) -> list[Json]:
         if not isinstance(item, dict) or not isinstance(item.get("scene"), str):
             raise WrongUsage("'scene' must be text")
     scenes, has_sized = [], False
-    for scene, answer in zip(items, settle([experiment_over({"scene": item["scene"]}, sweep) for item in items])):
+    for scene, answer in zip(items, settle([experiment_over({"scene": item["scene"]}, sweep) for item in items]), strict=True):
         name = scene["scene"]
         if of_sizes and answer.get("sized"):
             name += f":{HOLE}"
@@ -140,7 +140,7 @@ def options_of(described: Json) -> list[tuple[str, list[str]]]:
 
 
 def with_options(one: Planned, options: list[tuple[str, list[str]]], chosen: tuple[str, ...]) -> Planned:
-    for (key, _), value in zip(options, chosen):
+    for (key, _), value in zip(options, chosen, strict=True):
         whose, own = OPTIONS[key]
         place = {"builder": one.builder, "collider": one.collider, "query": one.query, "scene": one.scene}[whose]
         if place is not None:
@@ -172,7 +172,7 @@ def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list
             asked.append((f"--set {key}: " if own != key else "",
                           experiment_over(one.scene, sweep, one.builder, one.collider, one.query)))
     answers = settle([experiment for _, experiment in asked])
-    for (where, _), answer in zip(asked, answers):
+    for (where, _), answer in zip(asked, answers, strict=True):
         if answer.get("error"):
             raise WrongUsage(where + answer["error"])
     for scene in scenes:

@@ -98,7 +98,7 @@ def has_sizes(done: Done) -> bool:
 
 def estimate(done: Done, triangles: int) -> float:
     """Fits a line by least squares, with neither a negative start nor a negative slope, and returns its value."""
-    sizes, seconds = (numpy.array(column, dtype=float) for column in zip(*done))
+    sizes, seconds = (numpy.array(column, dtype=float) for column in zip(*done, strict=True))
     if triangles <= 0:
         return float(seconds.mean())
     if not has_sizes(done):
