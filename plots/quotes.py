@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Compares the numbers that documents quote with the result files that they come from.
+"""Compares what documents quote with the result files that it comes from.
 
-    plots/quotes.py            # prints each number that differs from its file; the exit code is 1 if one does
-    plots/quotes.py --fill     # writes the files' numbers into the documents
+    plots/quotes.py            # prints what differs from its file; the exit code is 1 if something does
+    plots/quotes.py --fill     # writes the files' tables and numbers into the documents
 
-The numbers of NAME.md are listed in results/quotes/NAME.py, whose function `quotes` names sentences of the document and gives the
-values of the numbers in them (Document.says). results/quotes/loose.json has how many numbers each document has besides: they are of
-tests, other programs or runs that were not kept. --fill lowers these counts; who raises one by hand has to say why.
+The list of NAME.md is results/quotes/NAME.py. Its function `quotes` makes the tables that stand between the marks
+
+    <!-- generated: NAME -->
+    <!-- end -->
+
+of the document (Document.table), and names the few sentences that quote a number, with its value (Document.says).
 """
 import argparse
 import json
@@ -21,18 +24,16 @@ from typing import Any, NamedTuple
 
 import names
 import output
+import tables
 from cells import Cell
 from ranking import OF_QUERY
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-LOOSE_COUNTS = ROOT / "results" / "quotes" / "loose.json"
 NUMBER = r"-?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e-?\d+)?"
 NUMBER_PLACE, TEXT_PLACE = rf"(?<![\d.,])(?:\*\*)?({NUMBER})(?:\*\*)?", r"([^|\n]*?)"
-# A number that a measurement may give: it has decimals or thousands. Code and addresses of links are no text.
-LOOSE = re.compile(r"(?<![\w.,:-])(?:\d+\.\d+|\d{1,3}(?:,\d{3})+(?:\.\d+)?)(?![\w.:-]*\w)")
 ONE_SET = ", objects: one"  # of a scene whose objects were one set
-RESULT = re.compile(r"results/[\w-]+/[\w-]+\.json\.xz")
-NO_TEXT = re.compile(r"^```.*?^```|^    .*?$|`[^`]*`|\]\([^)]*\)", re.MULTILINE | re.DOTALL)
+RESULT = re.compile(r"results/[\w-]+/[\w-]+\.json\.xz|<!-- generated: ")
+Value = float | str | None
 
 
 class File:
@@ -55,6 +56,10 @@ class File:
         """Returns the first of `frames`."""
         return self.frames(scene, asked)[0]
 
+    def results(self) -> list[dict[str, Any]]:
+        """Returns the results of `bvhbench scale`, one for each number of ranks."""
+        return [run["result"] for run in self.document["runs"]]
+
 
 def asked_of(cell: Cell) -> str:
     """Returns the name of what was asked for, equal on every device: "bvtt (jump 2) over oibvh-multi", "oibvh-multi, kd"."""
@@ -74,9 +79,9 @@ def query_us(cell: Cell) -> float:
     return us(cell, *(stage for stage in cell.samples[0] if stage in OF_QUERY))
 
 
-def tree_us(cell: Cell, *without: str) -> float:
+def tree_us(cell: Cell) -> float:
     """Returns the same of the stages that make the tree."""
-    return us(cell, *(stage for stage in cell.samples[0] if stage not in (*OF_QUERY, *without)))
+    return us(cell, *(stage for stage in cell.samples[0] if stage not in OF_QUERY))
 
 
 def later_ms(frames: Sequence[Cell]) -> float:
@@ -94,13 +99,40 @@ def frame_ms(document: dict[str, Any]) -> float:
     return document["frame_ns"] * 1e-6
 
 
-def best(values: Sequence[float], form: str = "{:.3f}") -> list[str]:
-    """Returns the texts of values, the smallest one bold."""
-    return [f"**{form.format(value)}**" if value == min(values) else form.format(value) for value in values]
+def ends(values: Iterable[float]) -> tuple[float, float]:
+    return min(those := list(values)), max(those)
+
+
+def ratios(values: Iterable[float], others: Iterable[float]) -> tuple[float, float]:
+    """Returns the least and the largest ratio of each value to the other in its place."""
+    return ends(one / other for one, other in zip(values, others, strict=True))
+
+
+def shown(value: Value) -> str:
+    """Returns the entry of a table: three digits of a number, all digits of a whole one."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return f"{value:,}" if isinstance(value, int) else "0" if value == 0 else tables.three_digits(value)
+
+
+def best(values: Sequence[float]) -> list[str]:
+    """Returns the entries of values, the least one bold."""
+    return [f"**{shown(value)}**" if value == min(values) else shown(value) for value in values]
+
+
+def markdown(titles: str, rows: Iterable[Sequence[Value]]) -> str:
+    """Returns a table that can be read as plain text. `titles` has "|" between columns; "<" aligns one to the left."""
+    heads = [title.strip() for title in titles.split("|")]
+    texts = [[head.removeprefix("<").strip() for head in heads], *([shown(value) for value in row] for row in rows)]
+    widths = [max(3, *map(len, column)) for column in zip(*texts, strict=True)]
+    aligns = ["<" if head.startswith("<") else ">" for head in heads]
+    lines = [[f"{text:{align}{width}}" for text, align, width in zip(row, aligns, widths, strict=True)] for row in texts]
+    lines[1:1] = [["-" * (width - (align == ">")) + ":" * (align == ">") for align, width in zip(aligns, widths, strict=True)]]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 class Quote(NamedTuple):
-    """A number or text of a document between two offsets, and its value in the file."""
+    """A number, text or table of a document between two offsets, and its value in the file."""
 
     start: int
     end: int
@@ -108,49 +140,43 @@ class Quote(NamedTuple):
 
 
 class Document:
-    """A document, or the part of it between two offsets, whose numbers are compared."""
+    """A document whose tables and numbers are compared."""
 
     def __init__(self, path: pathlib.Path, root: pathlib.Path = ROOT) -> None:
         self.path, self.name, self.text = path, str(path.relative_to(root)), path.read_text(encoding="utf-8")
-        self.start, self.end = 0, len(self.text)
         self.quotes: list[Quote] = []
-        self.covered: list[tuple[int, int]] = []
         self.faults: list[str] = []
+        self.marks = re.findall(r"<!-- generated: (.*?) -->", self.text)
+        self.made: list[str] = []
 
     def line(self, offset: int) -> str:
         return f"{self.name}:{self.text.count(chr(10), 0, offset) + 1}"
 
-    def under(self, beginning: str, until: str = "", lines: int = 0) -> None:
-        """What follows is said from the line that begins with `beginning` up to the line that begins with `until`, or for a number of
-        lines, or else up to the next heading of the same or a higher level."""
-        first = re.compile(rf"^{re.escape(beginning)}", re.MULTILINE).search(self.text)
-        if first is None:
-            raise LookupError(f"{self.name} has no line '{beginning}'")
-        level = len(beginning) - len(beginning.lstrip("#")) or 6
-        end = rf"^{re.escape(until)}" if until else rf"(?:.*\n){{{lines}}}" if lines else rf"^#{{1,{level}}} "
-        last = re.compile(end, re.MULTILINE).search(self.text, first.start() if lines else first.end())
-        self.start, self.end = first.start(), last.end() if last and lines else last.start() if last else len(self.text)
+    def table(self, name: str, titles: str, rows: Iterable[Sequence[Value]]) -> None:
+        """The document has this table between the marks of its name."""
+        self.made.append(name)
+        begin = f"<!-- generated: {re.escape(name)} -->"
+        if found := re.search(rf"^{begin}\n((?:(?!<!--).)*)^<!-- end -->$", self.text, re.MULTILINE | re.DOTALL):
+            self.quotes.append(Quote(*found.span(1), markdown(titles, rows)))
+        else:
+            self.faults.append(f"{self.name}: the table '{name}' has no marks, or no end")
 
-    def says(self, sentence: str, *values: float | str | None) -> None:
+    def says(self, sentence: str, *values: float | str) -> None:
         """The document has this sentence once, with a number of this value for each {}, rounded to the digits that it has there, or
-        with this text. None stands for a number that has no file. Blanks and ends of lines are equal, and a number may be bold."""
+        with this text. Blanks and ends of lines are equal, and a number may be bold."""
         pieces = [r"\s+".join(map(re.escape, re.split(r"\s+", piece))) for piece in sentence.split("{}")]
         if len(pieces) != len(values) + 1:
             raise LookupError(f"'{sentence}' has {len(pieces) - 1} places for {len(values)} values")
         places = [TEXT_PLACE if isinstance(value, str) else NUMBER_PLACE for value in values]
         whole = r"(?!\d|[.,]\d)" if sentence.endswith("{}") else ""  # a number at the end of the sentence is taken whole
-        pattern = "".join(piece + place for piece, place in zip(pieces, [*places, whole]))
-        found = list(re.compile(pattern).finditer(self.text, self.start, self.end))
-        if len(found) != 1:
-            self.faults.append(f"{self.line(self.start)}: {'no' if not found else len(found)} text '{sentence}' from here on")
-            return
-        spans = [(*found[0].span(place), value) for place, value in enumerate(values, 1)]
-        self.quotes += [Quote(*span) for span in spans if span[2] is not None]
-        # What lies between numbers without a file is covered, the numbers are not.
-        edges = [found[0].start(), *(edge for start, end, value in spans if value is None for edge in (start, end)), found[0].end()]
-        self.covered += list(zip(edges[::2], edges[1::2]))
+        pattern = "".join(piece + place for piece, place in zip(pieces, [*places, whole], strict=True))
+        found = list(re.finditer(pattern, self.text))
+        if len(found) == 1:
+            self.quotes += [Quote(*found[0].span(place), value) for place, value in enumerate(values, 1)]
+        else:
+            self.faults.append(f"{self.name}: {'no' if not found else len(found)} text '{sentence}'")
 
-    def row(self, label: str, *values: float | str | None) -> None:
+    def row(self, label: str, *values: float | str) -> None:
         """A row of a table begins with the label and has these values."""
         self.says(f"| {label} |{' {} |' * len(values)}", *values)
 
@@ -158,25 +184,22 @@ class Document:
         return [quote for quote in self.quotes if not agrees(self.text[quote.start:quote.end], quote.value)]
 
     def findings(self) -> list[str]:
-        wrong = []
+        wrong = [f"{self.name}: the marks and the list of tables differ: {there or 'none'}, {made or 'none'}"
+                 for there, made in [(sorted(self.marks), sorted(self.made))] if there != made]
         for quote in self.differing():
             value = quote.value if isinstance(quote.value, str) else f"{quote.value:.6g}"
-            wrong.append(f"{self.line(quote.start)}: {self.text[quote.start:quote.end] or 'nothing'}, the file has {value}")
+            both = [*self.text[quote.start:quote.end].splitlines(), ""], [*value.splitlines(), ""]
+            there, made = next(pair for pair in zip(*both) if pair[0] != pair[1])  # the first line of a table that differs
+            wrong.append(f"{self.line(quote.start)}: {there or 'nothing'}, the file has {made or 'nothing'}")
         return [*self.faults, *wrong]
 
     def filled(self) -> str:
-        """Returns the text with the files' numbers."""
+        """Returns the text with the files' tables and numbers."""
         text = self.text
         once = {quote.start: quote for quote in self.differing()}  # sentences may share a number
         for _, quote in sorted(once.items(), reverse=True):
             text = text[:quote.start] + filled(text[quote.start:quote.end], quote.value) + text[quote.end:]
         return text
-
-    def loose(self) -> list[str]:
-        """Returns each number with decimals or thousands that no sentence covers, with its line."""
-        hidden = [*self.covered, *(found.span() for found in NO_TEXT.finditer(self.text))]
-        return [f"{self.line(found.start())}: {found.group()}" for found in LOOSE.finditer(self.text)
-                if not any(start <= found.start() < end for start, end in hidden)]
 
 
 def digits(text: str) -> int:
@@ -201,10 +224,6 @@ def filled(old: str, value: float | str) -> str:
     return f"{value:{',' if ',' in old or (value >= 10000 and '.' not in old) else ''}.{digits(old)}f}"
 
 
-def lists() -> list[pathlib.Path]:
-    return sorted((ROOT / "results" / "quotes").rglob("*.py"))
-
-
 def listed(name: str) -> types.SimpleNamespace:
     """Returns the names of another document's list: "docs/collisions"."""
     return types.SimpleNamespace(**runpy.run_path(str(ROOT / "results" / "quotes" / f"{name}.py")))
@@ -222,37 +241,21 @@ def read(path: pathlib.Path) -> Document:
 
 def documents() -> list[Document]:
     """Returns the documents that have a list."""
-    return [read(path) for path in lists()]
-
-
-def loose_counts(those: Iterable[Document]) -> dict[str, int]:
-    counts = {one.name: len(one.loose()) for one in those}
-    return {name: count for name, count in counts.items() if count}
-
-
-def lower_counts(found: dict[str, int]) -> None:
-    known = json.loads(LOOSE_COUNTS.read_text(encoding="utf-8"))
-    lowered = {name: min(count, found[name]) for name, count in known.items() if found.get(name)}
-    output.write(LOOSE_COUNTS, (json.dumps(lowered, indent=1) + "\n").encode())
+    return [read(path) for path in sorted((ROOT / "results" / "quotes").rglob("*.py"))]
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--fill", action="store_true", help="write the files' numbers into the documents")
-    parser.add_argument("--loose", metavar="NAME", help="list the numbers of a document that no list has: docs/orders.md")
+    parser.add_argument("--fill", action="store_true", help="write the files' tables and numbers into the documents")
     arguments = parser.parse_args()
     those = documents()
-    if arguments.loose:
-        print("\n".join(line for one in those if one.path == ROOT / arguments.loose for line in one.loose()))
-        return 0
-    findings = [finding for one in those for finding in one.findings()]
-    print("\n".join(findings) or f"{sum(len(one.quotes) for one in those)} numbers are those of their files")
     if arguments.fill:
         for one in those:
             if one.differing():
                 output.write(one.path, one.filled().encode())
-        lower_counts(loose_counts(documents()))
-        findings = [fault for one in those for fault in one.faults]
+        those = documents()
+    findings = [finding for one in those for finding in one.findings()]
+    print("\n".join(findings) or f"{sum(len(one.quotes) for one in those)} tables and numbers are those of their files")
     return 1 if findings else 0
 
 
