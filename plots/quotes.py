@@ -189,7 +189,7 @@ class Document:
         for quote in self.differing():
             value = quote.value if isinstance(quote.value, str) else f"{quote.value:.6g}"
             both = [*self.text[quote.start:quote.end].splitlines(), ""], [*value.splitlines(), ""]
-            there, made = next(pair for pair in zip(*both) if pair[0] != pair[1])  # the first line of a table that differs
+            there, made = next(pair for pair in zip(*both) if pair[0] != pair[1])  # the first line that differs, of a table
             wrong.append(f"{self.line(quote.start)}: {there or 'nothing'}, the file has {made or 'nothing'}")
         return [*self.faults, *wrong]
 

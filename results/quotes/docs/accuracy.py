@@ -18,12 +18,7 @@ def narrow(doc: Document) -> None:
 
 
 def axes_of_two_cores(doc: Document) -> None:
-    sums, codes, boxes = (File(f"pocl-2-cores/accuracy-{axis}") for axis in ("sums", "codes", "boxes"))
-    scenes = dict.fromkeys(cell.scene for cell in sums.cells)
-    doc.table("sums", f"< | ns per node | {' | '.join(scenes)}", (
-        [f"`{method}`", us(cells[0]) * 1e3 / cells[0].counters["nodes_count"], *(f"{cell.counters['relative_error']:.1e}" for cell in cells)]
-        for method in ("f32", "f32-compensated", "f64", "f64-pairwise", "f64-compensated")
-        for cells in [[sums.cell(scene, f"sums, {method}") for scene in scenes]]))
+    codes, boxes = File("pocl-2-cores/accuracy-codes"), File("pocl-2-cores/accuracy-boxes")
     keys = "duplicates_count", "sah_cost", "box_tests_count"
     doc.table("codes", "< scene | < order | equal codes | surface area cost | box tests", (
         [scene, method, *(codes.cell(scene, f"codes, {method}").counters.get(key) for key in keys)]
@@ -51,7 +46,8 @@ def frames(doc: Document) -> None:
         ["`exact`, µs", *(time / len(cells) for time, cells in zip(times, exact, strict=True))],
         ["contacts", *(sum(cell.counters["right_contacts_count"] for cell in cells) for cells in exact)],
         *([method.removeprefix("input "), *(entry(scene, method, whole) for scene, whole in zip(scenes, times, strict=True))]
-          for method in dict.fromkeys(cell.accuracy["method"] for cell in file.cells) if method not in ("exact", "boxes f64", "boxes f16", "input 20 bits"))])
+          for method in dict.fromkeys(cell.accuracy["method"] for cell in file.cells)
+          if method not in ("exact", "boxes f64", "boxes f16", "input 20 bits"))])
 
 
 def quotes(doc: Document) -> None:

@@ -2,7 +2,8 @@ import answer
 import ranking
 from quotes import Document, File, ends, frame_ms, later_ms, listed, ratios, sah
 
-of_paper, of_frames, of_orders, of_rivals, of_stress = (listed(f"docs/{name}") for name in ("paper", "collisions", "orders", "rivals", "stress"))
+of_paper, of_frames, of_orders, of_rivals, of_stress = (
+    listed(f"docs/{name}") for name in ("paper", "collisions", "orders", "rivals", "stress"))
 
 
 def quotes(doc: Document) -> None:
@@ -14,8 +15,8 @@ def quotes(doc: Document) -> None:
             best.setdefault(answer.family(row), []).append(row.ratio)
     if max(best["implicit trees"]) > 1:
         raise ValueError("the page says that implicit trees win on all three scenes")
-    doc.says("Front tracking takes {} to {} times as long, a hierarchical grid {} to {}, radix trees {} to {}, and Embree on 16 threads of the "
-             "host {} to {} times", *(end for family in ("front tracking", "hierarchical grid", "radix trees", "Embree")
+    doc.says("Front tracking takes {} to {} times as long, a hierarchical grid {} to {}, radix trees {} to {}, and Embree on 16 threads of "
+             "the host {} to {} times", *(end for family in ("front tracking", "hierarchical grid", "radix trees", "Embree")
                                       for end in ends(best[family])))
     doc.says("is {} to {} times as fast as the radix tree as printed (`apetrei`), and {} to {} times as fast as",
              *of_paper.faster(table1, "apetrei"), *of_paper.faster(table1, "apetrei-fused"))

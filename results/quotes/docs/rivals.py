@@ -41,8 +41,3 @@ def quotes(doc: Document) -> None:
         *([name, *(f"{tree_us(file.cell(scene, f'{ROWS[name]}-refit')) * 1e-3:.3f}" for scene in SCENES)] for name in REFITS),
         ["`oibvh-single`", *(f"{us(file.cell(scene.removesuffix(ONE_SET), 'oibvh-single, hilbert30, sorted leaves, refit')) * 1e-3:.3f}"
                              for scene in SCENES)]])
-    trees = {cell.builder: cell.counters for cell in File("h200/rivals-trees").cells}
-    doc.table("trees", "< builder | SAH | end-point overlap", (
-        [name, trees[name]["sah_cost"], trees[name]["epo"]]
-        for name in ("oibvh-single", "apetrei-fused", "hploc", "culbvh", "nexus-hploc-32", "nexus-hploc-64", "warp-lbvh", "cubql-radix",
-                     "cubql-rebin-radix", "cubql-spatial-median", "cubql-sah")))
