@@ -120,8 +120,9 @@ class Measure(NamedTuple):
         Samples before format 1.11 have no wall clock: their stages count."""
         of_query = self.objective == "query"
         if self.by_wall:
-            walls = [raw.get("wall_ns", whole_ns(sample)) for raw, sample in zip(counted(cell.all_samples), cell.samples)]
-            return numpy.array([wall - of_query * stages_ns(sample, False) for wall, sample in zip(walls, cell.samples)], float)
+            walls = [raw.get("wall_ns", whole_ns(sample)) for raw, sample in zip(counted(cell.all_samples), cell.samples, strict=True)]
+            return numpy.array([wall - of_query * stages_ns(sample, False)
+                                for wall, sample in zip(walls, cell.samples, strict=True)], float)
         return numpy.array([stages_ns(sample, True) if of_query else whole_ns(sample) for sample in cell.samples], float)
 
     def middle(self, cell: Cell) -> float:
@@ -166,7 +167,7 @@ class Frame:
     def base_until(self, order: float) -> float:
         """Returns the median of the base's samples up to the given order, or its first sample's value."""
         values = self.measure.values(self.base)
-        until = [value for value, raw in zip(values, counted(self.base.all_samples)) if raw["order"] <= order]
+        until = [value for value, raw in zip(values, counted(self.base.all_samples), strict=True) if raw["order"] <= order]
         return median(until or values[:1])
 
     def level(self, cell: Cell) -> float:
