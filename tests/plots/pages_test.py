@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Tests console tables and numbers, what `show` prints for axes of accuracy and for stress, what `reproduce` prints beside the
 paper's numbers, how `show` reads and writes, and what a report says was found."""
-import html
 import os
 import pathlib
 import re
@@ -15,7 +14,6 @@ import base  # first: it adds plots to sys.path
 from base import GOLDEN, ROOT, Raw, run_of
 
 import report
-import report_facts
 import results
 import tables
 from cells import Cell
@@ -218,17 +216,6 @@ class OfTheReport(unittest.TestCase):
                          "are right: guigue-f64 is soonest on slivers: 1.00 µs; the next, moller-f32, takes 3.0 times as "
                          "long.")
         self.assertEqual(answer_of(made[1]), "Right: guigue-f32 on 0 of 1 scene.")
-
-
-class OfCommittedPages(unittest.TestCase):
-    def test_are_of_the_files_beside_them(self) -> None:
-        pages = sorted((ROOT / "results").rglob("report.html"))
-        self.assertEqual([page.parent.name for page in pages], ["h200", "pocl-2-cores"])
-        for page in pages:
-            text = page.read_text(encoding="utf-8")
-            for name in ("table1", "fig8", "table2", "table3", "table4", "fig13"):
-                run = html.escape(report_facts.sentence_of(results.document_of(page.parent / f"{name}.json.xz")))
-                self.assertIn(run, text, f"{page} is older than {name}: make it again (results/README.md)")
 
 
 class OfTable1(unittest.TestCase):
