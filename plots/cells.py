@@ -43,8 +43,7 @@ def elapsed_ns(stage: dict[str, Any]) -> int:
 
 
 def whole_ns(sample: Sample) -> int:
-    """Returns the time from the first start to the last end of a sample. Device stages are placed by their start_ns (format 1.4
-    and later). Host stages do not overlap, so their times are added."""
+    """Returns the time from the first start to the last end of a sample. Device stages are placed by their start_ns. Host stages do not overlap, so their times are added."""
     stages = sample.values()
     total = sum(elapsed_ns(stage) for stage in stages)
     if any("wall_ns" in stage for stage in stages):
@@ -91,7 +90,7 @@ class Cell:
         self.check: dict[str, Any] = raw.get("check", {})
         self.counters: dict[str, float] = raw.get("counters", {})
         self.left_out: dict[str, str] = raw.get("left_out", {})  # counters without a value, each with the reason
-        self.leaves_by_depth: list[int] = raw.get("leaves_by_depth", [])  # by level, from the root; empty before format 1.3
+        self.leaves_by_depth: list[int] = raw.get("leaves_by_depth", [])  # by level, from the root
         self.accuracy: dict[str, Any] = raw.get("accuracy", {})  # axis, method and seed; empty for other operations
         self.outside: dict[str, str] = raw.get("outside", {})  # what a builder or collider from outside says of itself; else empty
         if self.outside:
@@ -140,7 +139,7 @@ class Cell:
         return self.raw.get("sampling", {}).get("caches", "hot")
 
     def walls_ns(self) -> list[float]:
-        """Returns the times of whole samples on the host's clock, for the samples that statistics use; empty before format 1.11."""
+        """Returns the times of whole samples on the host's clock, for the samples that statistics use."""
         return [sample["wall_ns"] for sample in counted(self.all_samples) if "wall_ns" in sample]
 
     @property

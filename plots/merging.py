@@ -8,8 +8,6 @@ import cells
 from documents import line_of
 from output import WrongUsage
 
-FIRST_MINOR = 8  # minor format version that introduced `merged_from`
-FIRST_WITH_PROCESSES = 12
 WORST_FIRST = ("differs", "not_checked", "counted", "agrees")
 
 Json = dict[str, Any]
@@ -176,6 +174,6 @@ def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_
     first = files[0].document
     text = document_text(first["run"], [line_of(cell) for cell in measured], [line_of(cell) for cell in stress],
                          [line_of(source) for source in sources.values()],
-                         f"1.{max(FIRST_WITH_PROCESSES if processes else FIRST_MINOR, int(first['format'].split('.')[1]))}")
+                         first["format"])
     return Merged(text, len(measured) + len(stress), len(sources), repeated + repeated_stress,
                   any(cell.get("check", {}).get("verdict") == "differs" for cell in measured))

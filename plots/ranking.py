@@ -117,7 +117,7 @@ class Measure(NamedTuple):
 
     def values(self, cell: Cell) -> numpy.ndarray:
         """Returns the nanoseconds of each sample that count. A query by the wall clock is what the tree's stages leave of the sample.
-        Samples before format 1.11 have no wall clock: their stages count."""
+        Samples without a wall clock count by their stages."""
         of_query = self.objective == "query"
         if self.by_wall:
             walls = [raw.get("wall_ns", whole_ns(sample)) for raw, sample in zip(counted(cell.all_samples), cell.samples, strict=True)]

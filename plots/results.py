@@ -33,7 +33,7 @@ class Run:
 
     @property
     def stress(self) -> list[dict[str, Any]]:
-        """Returns the results of `bvhbench stress`, as in the file; empty before format 1.6."""
+        """Returns the results of `bvhbench stress`, as in the file."""
         return self.document.get("stress", [])
 
     @functools.cached_property
@@ -52,7 +52,7 @@ class Run:
 
     @property
     def launch_cost_s(self) -> float:
-        """Returns the cost of a launch without work, in seconds; 0 before format 1.5, which did not measure it."""
+        """Returns the cost of a launch without work, in seconds; 0 if it was not measured."""
         return self.facts.get("launch_cost_ns", 0) * 1e-9
 
     @property
@@ -126,7 +126,7 @@ def changes_text(program: dict[str, Any]) -> str:
 
 
 def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
-    """Returns the costs of an inner node and a triangle. Files before format 1.2 have the default costs."""
+    """Returns the costs of an inner node and a triangle."""
     costs = facts.get("node_costs", {})
     return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS, strict=True))
 

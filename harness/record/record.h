@@ -126,7 +126,7 @@ struct Cell {
 };
 
 /// Format version of written files.
-inline const std::string result_format = "1.13";
+inline const std::string result_format = "1.0";
 
 /// Returns what a cell says about its scene, as one line of JSON.
 std::string scene_text(const SceneFacts& scene);

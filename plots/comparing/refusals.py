@@ -25,10 +25,6 @@ def require_comparable(first: Named, second: Named, rules: Rules) -> None:
     for name, document in (first, second):
         require_file(name, document, rules)
     (name, one), (other_name, other) = first, second
-    minors = [int(document["format"].partition(".")[2]) for document in (one, other)]
-    if (minors[0] >= 4) != (minors[1] >= 4):
-        raise WrongUsage(f"{name} has format 1.{minors[0]} and {other_name} 1.{minors[1]}: before 1.4 the time of a frame is "
-                         "another, without the gaps between stages")
     costs = [results.costs_text(results.costs_of(document["run"])) for document in (one, other)]
     if costs[0] != costs[1]:
         raise WrongUsage(f"{name} counts {costs[0]} and {other_name} {costs[1]}, so their sah_cost are not of one kind")

@@ -54,7 +54,7 @@ def stages(cell: Cell, copy_rate: float) -> str:
 
 
 def waited(cell: Cell, stage: str, state: str) -> str:
-    """Returns the median time that a stage's launches, or all launches, spent in that state; blank before format 1.8."""
+    """Returns the median time that a stage's launches, or all launches, spent in that state."""
     middle = median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in ("", name))
                      for sample in cell.samples])
     return duration(middle) if middle > 0 else ""
