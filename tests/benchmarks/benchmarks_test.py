@@ -29,7 +29,7 @@ NAMES = ["oibvh-multi", "oibvh-multi/refit", "karras/order:hilbert30", "karras/o
 
 def benchmarks(code: int, *words: str, says: str = "", **environment: str) -> str:
     """Runs the program and returns its standard output. Tests the exit code, and that standard error holds `says`."""
-    done = subprocess.run([BENCHMARKS, *words], capture_output=True, text=True, timeout=300, env={**os.environ, **environment})
+    done = subprocess.run([BENCHMARKS, *words], capture_output=True, text=True, timeout=600, env={**os.environ, **environment})
     assert done.returncode == code and says in done.stderr, (words, done)
     return done.stdout
 

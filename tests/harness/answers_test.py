@@ -6,7 +6,7 @@ import os
 import pathlib
 import sys
 
-from program import at_work, copied_kernels, expect, main, only
+from program import PATIENCE_S, at_work, copied_kernels, expect, main, only
 
 COLLIDE = ("collide", "--scene", "hairball:60000", "--adjacent", "drop", "--samples", "1")
 LEAF = (*COLLIDE, "--collider", "leaf", "--builder", "oibvh-multi")
@@ -115,7 +115,7 @@ def test_many_pairs_are_hashed_on_the_device_and_only_their_list_condemns():
 def test_two_processes_keep_one_answer():
     with contextlib.ExitStack() as stack:
         for process in [stack.enter_context(at_work(*LEAF, XDG_CACHE_HOME=os.path.abspath("both"), **KERNELS)) for _ in range(2)]:
-            out, error = process.communicate(timeout=300)
+            out, error = process.communicate(timeout=PATIENCE_S)
             assert process.returncode == 0 and AGREES in out, (out, error)
     assert len(answers("both")) == 1
 

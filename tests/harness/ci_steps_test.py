@@ -78,7 +78,7 @@ class TimeGate(unittest.TestCase):
 
     def run_in(self, folder: pathlib.Path, script: str) -> subprocess.CompletedProcess:
         return subprocess.run(["bash", "-e", "-c", script], cwd=folder, env=self.environment, capture_output=True, text=True, check=False,
-                              timeout=120)
+                              timeout=600)
 
     def commit(self, content: str) -> str:
         """Commits the launcher with a result file, and returns the commit."""

@@ -13,7 +13,7 @@ import sys
 import time
 import uuid
 
-from program import PROGRAM, SCHEMA, SOURCE, copied_kernels, expect, jsonschema, main, run, wait_until
+from program import PATIENCE_S, PROGRAM, SCHEMA, SOURCE, copied_kernels, expect, jsonschema, main, run, wait_until
 
 SHARED = ("--share-devices", "--force")
 UNNAMED = ", and so were the others; mpirun does not say which\n"  # of a rank that is lost while it starts
@@ -212,17 +212,17 @@ def begun(environment: dict[str, str], *words: str) -> tuple[subprocess.Popen, s
 
 
 def started(seconds: float, *words: str) -> tuple[subprocess.Popen, str]:
-    """Starts ranks over frames that take long; returns when rank 1 has run for a while."""
+    """Starts ranks over frames that take long; returns when both have run for a while."""
     child, mark = begun({}, "torus:100000", "--samples", "5000", *words)
-    wait_until(lambda: child.poll() is not None or any(rank == "1" for _, rank in processes_of(mark)))
-    time.sleep(seconds)
+    wait_until(lambda: child.poll() is not None or {"0", "1"} <= {rank for _, rank in processes_of(mark)})
+    time.sleep(seconds)  # only chooses where the signal strikes
     return child, mark
 
 
 def ended(child: subprocess.Popen, mark: str) -> str:
     """Returns what the program said at its end, after which none of its processes may be left."""
     try:
-        _, errors = child.communicate(timeout=120)
+        _, errors = child.communicate(timeout=PATIENCE_S)
         wait_until(lambda: not processes_of(mark))
     finally:
         for process, _ in processes_of(mark):
@@ -239,7 +239,7 @@ def test_a_killed_rank_ends_all():
         errors = ended(child, mark)
         assert child.returncode == 4, (child.returncode, errors)
         which = f"rank {rank} on {os.uname().nodename}"
-        if kill == 0 and errors.endswith(UNNAMED):
+        if errors.endswith(UNNAMED):  # it was still starting
             which = "a rank"
         assert errors.startswith(f"bvhbench: {which} was ended by signal 9 (Killed)"), errors
         assert errors.count("\n") == 1, errors
@@ -276,11 +276,11 @@ def test_too_little_room_for_the_session_is_a_sentence_at_once():
 def test_an_mpirun_that_hangs_is_ended():
     deaf = "trap '' TERM"
     # Ranks that wait for their plan, without work for the processor, and end when it is empty.
-    ranks = ("mkfifo $0.json", *[f"{PROGRAM} run $0.json >/dev/null 2>&1 &"] * 2, "sleep 3", ": >$0.json")
-    hung = {"starts none": (3, "mpirun started 0 of 2 ranks within 10.1 s", with_mpirun("none", deaf, "sleep 1000")),
-            "ends none": (4, "mpirun or a rank ended, the others did not within 10.1 s", with_mpirun("both", deaf, *ranks, "sleep 1000")),
-            "says why": (4, "others did not within 10.1 s", with_mpirun("why", deaf, "echo bvhbench: rank 1 said why >&2", *ranks, "sleep 1000"))}
-    begins = {name: begun(environment, "torus:2000", "--time-limit", "0.1") for name, (_, _, environment) in hung.items()}
+    ranks = ("mkfifo $0.json", *[f"{PROGRAM} run $0.json >/dev/null 2>&1 &"] * 2, "sleep 10", ": >$0.json")
+    hung = {"starts none": (3, "mpirun started 0 of 2 ranks within 30 s", with_mpirun("none", deaf, "sleep 1000")),
+            "ends none": (4, "mpirun or a rank ended, the others did not within 30 s", with_mpirun("both", deaf, *ranks, "sleep 1000")),
+            "says why": (4, "others did not within 30 s", with_mpirun("why", deaf, "echo bvhbench: rank 1 said why >&2", *ranks, "sleep 1000"))}
+    begins = {name: begun(environment, "torus:2000", "--time-limit", "20") for name, (_, _, environment) in hung.items()}
     stopped, mark = begun(with_mpirun("deaf", deaf, "sleep 1000", "sleep 1000"), "torus:2000")
     wait_until(lambda: any(pathlib.Path(f"/proc/{process}/comm").read_text() == "sleep\n" for process, _ in processes_of(mark)))
     stopped.send_signal(signal.SIGTERM)
@@ -335,9 +335,9 @@ def test_a_rank_without_memory_ends_all():
 
 
 def test_a_rank_that_hangs_ends_within_the_time_limit():
-    child, mark = begun({"BVHBENCH_STOP": "build:1"}, "torus:2000", "--samples", "1", "--time-limit", "1")
+    child, mark = begun({"BVHBENCH_STOP": "build:1"}, "torus:2000", "--samples", "1", "--time-limit", "5")
     errors = ended(child, mark)
-    assert child.returncode == 3 and "took longer than 1 s" in errors and errors.startswith("bvhbench: rank "), errors
+    assert child.returncode == 3 and "took longer than 5 s" in errors and errors.startswith("bvhbench: rank "), errors
     assert errors.count("\n") == 1, errors
 
 

@@ -12,7 +12,7 @@ SCRIPT = """source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _bvhb
 
 def completed(*words: str, program: pathlib.Path = PROGRAM) -> set[str]:
     done = subprocess.run(["bash", "-c", SCRIPT, "bash", SOURCE / "completions/bvhbench.bash", program, *words],
-                          capture_output=True, text=True, timeout=60, check=True)
+                          capture_output=True, text=True, timeout=600, check=True)
     assert not done.stderr, done.stderr
     return set(done.stdout.split())
 

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-from program import PROGRAM, SOURCE, main
+from program import PATIENCE_S, PROGRAM, SOURCE, main
 
 LAUNCHER = SOURCE / "bvhbench"
 NOBODY = 65534
@@ -41,7 +41,7 @@ def call(root: pathlib.Path, *words: str) -> subprocess.CompletedProcess:
     for path in paths:
         path.chmod(path.stat().st_mode & ~0o222)
     try:
-        return subprocess.run([root / "bvhbench", *words], capture_output=True, text=True, timeout=60, **other)
+        return subprocess.run([root / "bvhbench", *words], capture_output=True, text=True, timeout=PATIENCE_S, **other)
     finally:
         for path in paths:
             path.chmod(path.stat().st_mode | 0o200)
@@ -73,7 +73,7 @@ def test_who_may_not_write_is_told_that_nothing_is_built():
 def test_a_path_that_builds_do_not_take_is_refused_at_once_but_run_if_it_is_built():
     for k, bad in enumerate("'\"#;&[]*?|<^`\\"):
         root = checkout(f"{k} a{bad}b", built=False)
-        done = subprocess.run([root / "bvhbench", "list"], capture_output=True, text=True, timeout=60,
+        done = subprocess.run([root / "bvhbench", "list"], capture_output=True, text=True, timeout=PATIENCE_S,
                               env={**os.environ, "BVHBENCH_PACKAGES": "skip"})
         refused(done, f"this cannot be built in a folder with {bad} in its path: {root}")
         assert not (root / "build").exists()
@@ -90,7 +90,7 @@ def test_help_and_version_are_answered_before_anything_is_built():
     commands = re.findall(r"^  ([a-z]+)  ", listed, re.MULTILINE)
     assert len(commands) > 15, commands
     for words in (["--help"], ["-h"], ["--version"], *([command, "--help"] for command in commands)):
-        at_once, built = (subprocess.run([program, *words], capture_output=True, text=True, timeout=60)
+        at_once, built = (subprocess.run([program, *words], capture_output=True, text=True, timeout=PATIENCE_S)
                           for program in (root / "bvhbench", PROGRAM))
         assert (at_once.returncode, at_once.stdout, at_once.stderr) == (0, built.stdout, ""), (words, at_once, built)
     assert not (root / "build").exists()
@@ -101,7 +101,7 @@ def test_help_builds_nothing_where_the_program_is_older():
     (root / "docs").mkdir()
     shutil.copy(SOURCE / "docs/help-of-commands.txt", root / "docs")
     os.utime(root / "build/built", (1, 1))
-    done = subprocess.run([root / "bvhbench", "collide", "--help"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([root / "bvhbench", "collide", "--help"], capture_output=True, text=True, timeout=PATIENCE_S)
     assert (done.returncode, done.stdout, done.stderr) == (0, "ran: collide --help\n", ""), done
 
 

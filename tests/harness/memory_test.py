@@ -12,7 +12,7 @@ import struct
 import subprocess
 import time
 
-from program import PROGRAM, children, expect, experiment, main, only, valid
+from program import PROGRAM, SOURCE, children, expect, experiment, main, only, valid, wait_until
 
 FULL = os.environ.get("MEMORY_SIZES") == "full"
 MIB = 1 << 20
@@ -61,11 +61,18 @@ def group_of(limit: int):
 
 
 def removed(group: pathlib.Path) -> None:
-    for _ in range(50):  # processes leave a group shortly after they end
+    def is_gone() -> bool:
         with contextlib.suppress(OSError):
             group.rmdir()
-            return
-        time.sleep(0.1)
+        return not group.exists()
+
+    wait_until(is_gone)  # processes leave a group shortly after they end
+
+
+TABLES = """import pathlib, time
+while not pathlib.Path("seen").exists():
+    time.sleep(0.01)
+"""  # in place of the program's tables, for which it waits at its end: waits until its memory has been seen
 
 
 def peak_of_waiting(program: int) -> int:
@@ -94,7 +101,9 @@ def measured(*words: str, limit: int = 0, group: pathlib.Path | None = None, uli
             ended_pid, status, usage = os.wait4(process.pid, os.WNOHANG)
             if ended_pid:
                 break
-            standing[-1] = max(standing[-1], peak_of_waiting(process.pid))
+            if peak := peak_of_waiting(process.pid):
+                standing[-1] = peak
+                pathlib.Path("seen").touch()
             time.sleep(0.01)
         process.returncode = code = os.waitstatus_to_exitcode(status)
         out.seek(0), err.seek(0)
@@ -172,7 +181,12 @@ def around_one_too_large(*words: str, **limits) -> dict:
 
 
 def test_a_run_goes_on_behind_a_scene_that_is_too_large():
+    pathlib.Path("home/plots").mkdir(parents=True)
+    pathlib.Path("home/plots/__main__.py").write_text(TABLES)
+    pathlib.Path("seen").unlink(missing_ok=True)
+    os.environ["BVHBENCH_HOME"] = os.path.abspath("home")
     result = around_one_too_large("--memory-limit", "500M", limit=LIMIT)
+    os.environ["BVHBENCH_HOME"] = str(SOURCE)
     assert all("out of " in cell["reason"] and " memory: " in cell["reason"] for cell in result["cells"][2:4]), result["cells"]
     memory = result["run"]["host_memory"]
     assert 64 * MIB < memory["predicted_bytes"] <= LIMIT and memory["given_bytes"] == LIMIT, memory

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import threading
 
-from program import PROGRAM, at_work, expect, experiment, main, run, valid, wait_until
+from program import PATIENCE_S, PROGRAM, at_work, expect, experiment, main, run, valid, wait_until
 
 BUILD = ("build", "--builder", "median-split", "--scene", "soup:50", "--samples", "1")
 COLLIDE = ("collide", "--collider", "brute", "--scene", "soup:50", "--samples", "1")
@@ -160,12 +160,12 @@ def test_devices_and_pipes_are_written_to():
     reader = threading.Thread(target=lambda: read.append(pathlib.Path("pipe").read_bytes()), daemon=True)
     reader.start()
     expect(0, *BUILD, "--json", "pipe")
-    reader.join(60)
+    reader.join(PATIENCE_S)
     assert len(json.loads(read[0])["cells"]) == 1 and stat.S_ISFIFO(os.stat("pipe").st_mode)
     os.symlink("/proc/self/fd/1", "stdout")
     assert '"cells"' in expect(0, *BUILD, "--json", "stdout")
     with open("all.txt", "wb") as out:
-        assert subprocess.run([PROGRAM, *BUILD, "--json", "stdout"], stdout=out, timeout=300).returncode == 0
+        assert subprocess.run([PROGRAM, *BUILD, "--json", "stdout"], stdout=out, timeout=PATIENCE_S).returncode == 0
     text = pathlib.Path("all.txt").read_text()
     assert text.startswith('{"format"') and "agrees" in text
     assert os.path.islink("stdout")
@@ -213,7 +213,7 @@ def test_two_commands_do_not_write_one_file():
 def test_a_temporary_file_cannot_be_put_there_before():
     script = 'for p in good.json.tmp$$ .good.json.tmp$$; do ln -s a.obj $p; done; exec "$0" "$@"'
     words = [PROGRAM, *BUILD, "--json", "good.json", "--force"]
-    assert subprocess.run(["sh", "-c", script, *words], capture_output=True, timeout=300).returncode == 0
+    assert subprocess.run(["sh", "-c", script, *words], capture_output=True, timeout=PATIENCE_S).returncode == 0
     assert pathlib.Path("a.obj").read_text() == MESH
     valid("good.json")
 
@@ -222,7 +222,7 @@ def test_a_limit_on_file_sizes_leaves_what_was_there():
     shutil.copy("good.json", "old.json")
     before = state()
     done = subprocess.run([PROGRAM, "merge", "good.json", "-o", "old.json", "--force"], capture_output=True, text=True,
-                          timeout=300, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512)))
+                          timeout=PATIENCE_S, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (512, 512)))
     assert done.returncode == 3 and done.stderr == "bvhbench: old.json cannot be written: File too large\n", done
     assert state() == before
 
@@ -232,7 +232,7 @@ def test_a_standard_output_that_fails_is_an_error():
                   BUILD, (*BUILD, "--json", "r.json", "--force")):
         with open("/dev/full", "w") as full:
             for changed in ({"stdout": full}, {"preexec_fn": lambda: os.close(1)}):
-                done = subprocess.run([PROGRAM, *words], stderr=subprocess.PIPE, text=True, timeout=300, **changed)
+                done = subprocess.run([PROGRAM, *words], stderr=subprocess.PIPE, text=True, timeout=PATIENCE_S, **changed)
                 assert done.returncode == 3, (words, done)
                 assert done.stderr.startswith("bvhbench: standard output cannot be written"), (words, done)
     assert len(valid("r.json")["cells"]) == 1

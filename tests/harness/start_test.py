@@ -9,7 +9,7 @@ import resource
 import shutil
 import sys
 
-from program import at_work, expect, main, only, run, valid
+from program import PATIENCE_S, at_work, expect, main, only, run, valid
 
 QUICK = ("build", "--builder", "median-split", "--scene", "soup:30", "--samples", "1")  # two kernels of one program
 
@@ -81,7 +81,7 @@ def test_several_may_start_at_a_time():
     with contextlib.ExitStack() as stack:
         started = [stack.enter_context(at_work(*QUICK, XDG_CACHE_HOME=os.path.abspath("several"), POCL_CACHE_DIR="")) for _ in range(3)]
         for process in started:
-            out, error = process.communicate(timeout=300)
+            out, error = process.communicate(timeout=PATIENCE_S)
             assert process.returncode == 0 and "agrees" in out and not error, (process.returncode, out, error)
     assert kept_in("several") == kept_in("several")
 

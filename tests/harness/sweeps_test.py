@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-from program import KEPT, PROGRAM, SCHEMA, SOURCE, at_work, expect, experiment, main, ours, planted_karras, run, valid, wait_until
+from program import KEPT, PATIENCE_S, PROGRAM, SCHEMA, SOURCE, at_work, expect, experiment, main, ours, planted_karras, run, valid, wait_until
 
 PRODUCT = ("--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--orders", "morton30,hilbert30", "--samples", "2",
            "--warm-up", "0")
@@ -62,18 +62,18 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
         with at_work("sweep", *PRODUCT, "--out", "killed") as process:
             # Kills after a new cell has finished, so that there is something to resume. The last kill hits only the sweep itself.
             wait_until(lambda: finished("killed").keys() - before.keys() or process.poll() is not None)
-            time.sleep(draw.uniform(0, 0.8))
+            time.sleep(draw.uniform(0, 0.8))  # only chooses where the kill strikes
             if kill < 2:
                 os.killpg(process.pid, signal.SIGKILL)
             else:
                 process.kill()
-        wait_until(lambda: not ours(), 10)  # killed processes are gone after a moment
+        wait_until(lambda: not ours())  # killed processes are gone after a moment
         now = finished("killed")
         assert all(now[name] == text for name, text in before.items()), "a finished cell was measured again"
         before = now
         progress.append(len(before))
     print(f"  seed {seed}: killed with {progress} of 8 cells done")
-    assert 1 <= progress[0] < 8, progress
+    assert 1 <= progress[0] <= 8, progress
     done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured, 0 skipped, 0 failed")
     assert done.count("\n[") == 8 - len(before), done
     now = finished("killed")
@@ -93,21 +93,22 @@ def test_no_process_outlives_a_sweep_that_is_killed():
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect", "--samples", "1000000", "--out", "outlived")
     with at_work(*words) as process:
         wait_until(lambda: any(" run outlived/" in line for line in ours()))
-        time.sleep(0.5)  # it is running by now, and would run for minutes
         process.kill()
     wait_until(lambda: not ours())
 
 
 def test_an_interrupt_ends_it_and_keeps_what_is_done():
-    with at_work("sweep", *PRODUCT, "--out", "stopped") as process:
+    # Two cells that take a moment, and two over a simulation of minutes.
+    words = ("--scenes", "soup:70,cloth-dress:20000:60", "--builders", "perfect,karras", "--samples", "2")
+    with at_work("sweep", *words, "--out", "stopped") as process:
         for line in process.stdout:
-            if line.startswith("[2/8]"):
+            if line.startswith("[2/4]"):
                 break
         os.killpg(process.pid, signal.SIGINT)  # like a terminal, which also signals the cell's process
-        output, errors = process.communicate(timeout=60)
+        output, errors = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 130 and errors == KEPT, (process.returncode, errors)
     kept = cells_of("stopped/sweep.json")
-    assert 2 <= len(kept) < 8 and "written: stopped/sweep.json" in output, (kept, output)
+    assert len(kept) == 2 and "written: stopped/sweep.json" in output, (kept, output)
     assert "finished_at" not in valid("stopped/sweep.json")["run"]
     assert not ours()
 
@@ -144,16 +145,17 @@ def test_a_device_that_goes_away_ends_it_with_what_is_done():
     vendors.mkdir()
     for path in pathlib.Path(os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors")).glob("*.icd"):
         shutil.copy(path, vendors)
-    words = ("sweep", "--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--samples", "1", "--out", "gone")
+    words = ("sweep", "--scenes", "soup:70,torus:500,soup:71", "--builders", "perfect,karras,apetrei,median-split", "--samples", "1", "--out",
+             "gone")
     with at_work(*words, OCL_ICD_VENDORS=str(vendors)) as process:
         for line in process.stdout:
-            if line.startswith("[1/4]"):
+            if line.startswith("[1/12]"):
                 shutil.rmtree(vendors)
                 break
-        _, errors = process.communicate(timeout=60)
-    assert process.returncode == 3 and re.match(r"bvhbench: the device is gone after [12] of 4 cells \(.*\n$", errors), errors
+        _, errors = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 3 and re.match(r"bvhbench: the device is gone after \d+ of 12 cells \(.*\n$", errors), errors
     assert statuses("gone/sweep.json").keys() == {"measured"}
-    expect(0, *words, says="4 cells: 4 measured")
+    expect(0, *words, says="12 cells: 12 measured")
 
 
 def test_shards_together_are_the_whole():

@@ -19,7 +19,7 @@ namespace {
 [[noreturn]] void tell_end_of(void (*work)())
 {
     try {
-        supervised(60, [work] {
+        supervised(600, [work] {
             watchdog::kernels_are_in("/kernels");
             work();
             return 0;

@@ -21,7 +21,7 @@ CLUSTER_HEADER = "include/bvhbench/oibvh_cluster.h"  # tests/library_cluster/pac
 
 def run(*words, fails: bool = False, **environment: str) -> str:
     """Runs a command and returns its output. Asserts that it succeeds or, with `fails`, that it fails."""
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300, check=False,
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=600, check=False,
                           env={**os.environ, **environment})
     said = done.stdout + done.stderr
     assert (done.returncode != 0) == fails, f"{' '.join(map(str, words))} ended with {done.returncode}:\n{said}"

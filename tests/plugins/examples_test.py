@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
-from program import PROGRAM, SOURCE, main, valid  # noqa: E402
+from program import PATIENCE_S, PROGRAM, SOURCE, main, valid  # noqa: E402
 
 CC, CXX = sys.argv[3:5]
 PAGE = (SOURCE / "docs/plugins.md").read_text()
@@ -28,7 +28,7 @@ def printed(commands: str) -> str:
     link.symlink_to(PROGRAM)
     commands = re.sub(r"^cc ", f"{CC} ", commands.replace("BVHBENCH", str(SOURCE)), flags=re.MULTILINE)
     commands = commands.replace("examples/plugins/", f"{SOURCE}/examples/plugins/")
-    done = subprocess.run(["sh", "-ec", commands], capture_output=True, text=True, timeout=300,
+    done = subprocess.run(["sh", "-ec", commands], capture_output=True, text=True, timeout=PATIENCE_S,
                           env={**os.environ, "PATH": f"{os.getcwd()}/bin:{os.environ['PATH']}"})
     assert done.returncode == 0 and not done.stderr, done
     return done.stdout

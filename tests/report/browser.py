@@ -9,7 +9,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common import utils
 
-PATIENCE_S = 60
+PATIENCE_S = 600
 SCHEMES_OF_THE_PAGE = ("file:", "data:", "blob:")
 ADDRESS = "127.0.0.1"
 

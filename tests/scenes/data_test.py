@@ -36,7 +36,7 @@ class Data(unittest.TestCase):
         given = ["--data", self.data] if folder else []
         environment = {key: value for key, value in os.environ.items() if key != "BVHBENCH_DATA"}
         done = subprocess.run([sys.executable, ROOT / "plots", "data", *map(str, words), "--manifest", manifest, *given],
-                              capture_output=True, text=True, check=False, env=environment, timeout=60)
+                              capture_output=True, text=True, check=False, env=environment, timeout=600)
         self.assertEqual(done.returncode, code, done)
         if code in (2, 3):
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -76,7 +76,7 @@ class Data(unittest.TestCase):
         self.assertIn("--data or in BVHBENCH_DATA", self.run_data(2, "armadillo", folder=False))
 
     def test_the_real_list_can_be_read(self) -> None:
-        done = subprocess.run([sys.executable, ROOT / "plots", "data"], capture_output=True, text=True, check=True, timeout=60)
+        done = subprocess.run([sys.executable, ROOT / "plots", "data"], capture_output=True, text=True, check=True, timeout=600)
         self.assertRegex(done.stdout, r"(?m)^bunny +144046 ")
 
 

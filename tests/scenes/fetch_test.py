@@ -52,7 +52,7 @@ class Fetch(unittest.TestCase):
         Server.asked = []
 
     def run_fetch(self, code, *arguments):
-        done = subprocess.run([sys.executable, str(FETCH), *map(str, arguments)], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([sys.executable, str(FETCH), *map(str, arguments)], capture_output=True, text=True, timeout=600, check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         return done
 
