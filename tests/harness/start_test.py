@@ -104,7 +104,8 @@ def test_kernels_that_cannot_be_kept_are_compiled_all_the_same():
 def test_limits_and_settings_of_the_user_change_no_answer():
     """Limits of files and stack, one core, time zones and languages that do not exist, a home that is none, and no room for caches."""
     usual = only_of(QUICK)
-    soft = {"files": (resource.RLIMIT_NOFILE, 16), "stack": (resource.RLIMIT_STACK, 256 << 10), "address space": (resource.RLIMIT_AS, 4 << 30)}
+    soft = {"files": (resource.RLIMIT_NOFILE, 16), "stack": (resource.RLIMIT_STACK, 256 << 10),
+            "address space": (resource.RLIMIT_AS, 4 << 30)}
     for what, (limit, value) in soft.items():
         kept = resource.getrlimit(limit)
         try:
@@ -118,7 +119,8 @@ def test_limits_and_settings_of_the_user_change_no_answer():
         assert only_of(QUICK) == usual
     finally:
         os.sched_setaffinity(0, cores)
-    for settings in ({"TZ": ":/nonsense"}, {"TZ": "Pacific/Apia", "LC_ALL": "xx_YY.UTF-8"}, {"LC_ALL": "de_DE.UTF-8"}, {"POCL_KERNEL_CACHE": "0"}):
+    for settings in ({"TZ": ":/nonsense"}, {"TZ": "Pacific/Apia", "LC_ALL": "xx_YY.UTF-8"}, {"LC_ALL": "de_DE.UTF-8"},
+                     {"POCL_KERNEL_CACHE": "0"}):
         assert only_of(QUICK, **settings) == usual, settings
 
 
