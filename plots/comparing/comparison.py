@@ -73,7 +73,8 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
     """Compares the times of cells whose pairs of processes vary alike."""
     rules = comparison.rules
     whole = [(times_of(cell.first), times_of(cell.second)) for cell in cells]
-    spread = times.spread_of([times.differences(*pair) for pair in whole]) if comparison.sides.in_pairs else None
+    in_pairs = comparison.sides.in_pairs and len({len(of_side) for pair in whole for of_side in pair}) == 1
+    spread = times.spread_of([times.differences(*pair) for pair in whole]) if in_pairs else None
     common = 1.0
     if rules.other_devices:
         common = math.exp(median([times.log_medians(second).mean() - times.log_medians(first).mean() for first, second in whole]))

@@ -111,6 +111,12 @@ class Times(unittest.TestCase):
             self.assertEqual("did not take turns" in report.text(found), after > 0)
         self.assertIn("the same number of them", report.text(compared(first, side(2, 7))))
 
+    def test_of_a_process_without_samples_have_no_spread(self) -> None:
+        first, second = side(1), side(2, slower={"karras": 1.4})
+        lost = second["cells"][3]
+        lost["samples"] = [sample for sample in lost["samples"] if sample["process"] != 5]
+        self.assertEqual(compared(first, second).cells[1].verdict, UNSURE)
+
     def test_of_fewer_than_nine_samples_are_unsure(self) -> None:
         for samples, expected in ((8, UNSURE), (9, SLOWER)):
             self.assertEqual(verdicts(document(cell(samples=samples)), document(cell(median_ns=3e6, samples=samples))), [expected])
