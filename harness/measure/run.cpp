@@ -138,10 +138,7 @@ Run::Run(Session& session, Output output, std::vector<std::string> command, cons
     watchdog::go_on_with(results_.run_id());
 }
 
-void Run::finish()
-{
-    results_.finish(session_.end_of_run());
-}
+void Run::finish() { results_.finish(session_.end_of_run()); }
 
 std::vector<std::string> files_of(const std::vector<std::string>& scenes,
                                   const SceneLibrary& library)
