@@ -158,7 +158,7 @@ class Cell:
         """Returns a cell with the samples of each process, if they are of several (`merge --processes`); else this cell alone."""
         if "processes" not in self.raw:
             return [self]
-        samples = grouped(self.all_samples, lambda sample: sample["process"])
+        samples = grouped(self.all_samples, lambda sample: sample.get("process", 0))
         return [Cell({key: value for key, value in self.raw.items() if key != "processes"} | {"samples": samples[k]})
                 for k in sorted(samples)]
 
