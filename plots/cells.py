@@ -43,7 +43,8 @@ def elapsed_ns(stage: dict[str, Any]) -> int:
 
 
 def whole_ns(sample: Sample) -> int:
-    """Returns the time from the first start to the last end of a sample. Device stages are placed by their start_ns. Host stages do not overlap, so their times are added."""
+    """Returns the time from the first start to the last end of a sample. Device stages are placed by their start_ns. Host stages do
+    not overlap, so their times are added."""
     stages = sample.values()
     total = sum(elapsed_ns(stage) for stage in stages)
     if any("wall_ns" in stage for stage in stages):

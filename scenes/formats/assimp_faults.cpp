@@ -117,9 +117,9 @@ std::string assimp_fault(std::string_view bytes, std::string_view extension)
     if (extension == ".dae")
         return fault_of_collada(bytes);
     if (extension == ".amf" && count_of_tags(bytes, "volume") > count_of_tags(bytes, "object"))
-        return "it has objects of several volumes, of which assimp reads one";
+        return "it has objects of several volumes, and assimp reads one of each";
     if (extension == ".3mf" && count_in_zip(bytes, ".model") > 1)
-        return "it has several model parts, of which assimp reads one";
+        return "it has several model parts, and assimp reads one of them";
     return "";
 }
 

@@ -3,10 +3,10 @@
 
 Usage: compare_trials.py <bvhbench> [--trials N] [--processes N] [--samples N] [--slow FACTOR] [--write FILE] [--keep FOLDER]
 
-Takes about half an hour on two cores, which nothing else may use, so it is run by .ci/nightly instead of a test. In each trial as many
-times as there are processes of a side, three runs sample by turns (`run --turns`): two unchanged ones, and one in which the test hook
-BVHBENCH_SLOW slows a builder, another one in each trial. The first side is compared with the second and with the slowed one. The
-trials come without load and beside busy loops, of which some sleep most of the time. Exits with 1 unless
+Takes about half an hour on two cores, which nothing else may use, so .ci/nightly runs it. A trial has three sides of several processes:
+two sides are unchanged, and in the third the test hook BVHBENCH_SLOW slows a builder, another one in each trial. The sides' processes
+sample by turns (`run --turns`). The first side is compared with the second and with the slowed one. Half of the trials run without load,
+half beside busy loops. Exits with 1 unless
 
 - of one build, at most one comparison in 20 has a cell that is SLOWER or FASTER, without load and beside any,
 - the slowed cell is SLOWER in at least 90 % of the trials without load.

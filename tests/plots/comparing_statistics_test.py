@@ -6,7 +6,7 @@ import numpy
 
 import base  # noqa: F401  first: it adds plots to sys.path
 
-from comparing import student
+from comparing import student, times
 from ranking import rank_below
 
 
@@ -20,6 +20,17 @@ class Statistics(unittest.TestCase):
         values = numpy.random.default_rng(11).normal(0, 1, (4000, 5))
         margins = student.quantile(0.05, 4) * values.std(axis=1, ddof=1) / numpy.sqrt(5)
         self.assertAlmostEqual(numpy.mean(numpy.abs(values.mean(axis=1)) > margins), 0.05, delta=0.012)
+
+    def test_the_cells_of_a_scene_share_their_spread(self) -> None:
+        cells = [numpy.array([0.01, -0.01, 0.03, -0.03]), numpy.array([0.0, 0.0, 0.0, 0.0])]
+        spread = times.spread_of(cells)
+        self.assertAlmostEqual(spread.deviation**2, 0.002 / 3 / 2)
+        self.assertEqual(spread.freedom, 4)  # 3 of a cell alone, 2 c / (c + 1) of them for c cells
+        self.assertEqual([times.spread_of([numpy.zeros(8)] * count).freedom for count in (1, 6)], [7, 12])
+        self.assertIsNone(times.spread_of([numpy.zeros(1)]))
+        even = [numpy.full(9, 100.0)] * 4  # a cell whose own differences are all 0 has the spread of the others
+        found = times.time_change(even, even, 0.05, 0.05, spread)
+        self.assertAlmostEqual(numpy.log(found.ratio.high), student.quantile(0.05, 4) * spread.deviation / 2)
 
     def test_a_median_is_between_the_order_statistics_of_the_tables(self) -> None:
         for count, error, rank in ((9, 0.05, 2), (20, 0.05, 6), (30, 0.05, 10), (30, 0.01, 8), (100, 0.05, 40), (5, 0.05, 0), (0, 0.05, 0)):

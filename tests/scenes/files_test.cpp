@@ -276,7 +276,7 @@ const Bad bad_files[] = {
      "PK\1\2" + std::string(24, 'x') + std::string("\7\0", 2) + std::string(16, 'x') + "a.model" +
          "PK\1\2" + std::string(24, 'x') + std::string("\7\0", 2) + std::string(16, 'x') +
          "b.model",
-     "several model parts, of which assimp reads one"},
+     "several model parts, and assimp reads one of them"},
     {"volumes.amf", "<amf><object><mesh><volume/><volume/></mesh></object></amf>",
      "several volumes"},
     {"notes.txt", "hello", "of a format that is not read, '.txt'"},
