@@ -24,7 +24,7 @@ Programs& programs_at_once(uint at_once)
 {
     if (at_once == 0)
         return bench().programs;
-    static std::map<uint, Programs*> all;
+    static auto& all = *new std::map<uint, Programs*>;  // never destroyed, like bench()
     Programs*& programs = all[at_once];
     if (programs == nullptr) {
         Device& device = *new Device(bench().device);

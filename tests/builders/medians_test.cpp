@@ -33,7 +33,9 @@ const MedianCase cases[] = {
     {"blocks_chunks", false, {.form = KernelForm::chunks}},
     {"blocks_chunks_over_64", false, {.form = KernelForm::chunks, .block_height = 6}},
     {"cells_groups", true, {.form = KernelForm::groups}},
-    {"cells_groups_over_32", true, {.form = KernelForm::groups, .block_height = 5}},
+    {"cells_groups_over_32",
+     true,
+     {.form = KernelForm::groups, .block_height = 5, .group_size = 32}},
     {"cells_chunks", true, {.form = KernelForm::chunks}},
     {"cells_chunks_over_32", true, {.form = KernelForm::chunks, .block_height = 5}},
 };

@@ -36,8 +36,8 @@ TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
         objects.push_back({k, 1});
     for (const bool is_sorted : {false, true}) {
         const auto block = made("block", {.form = KernelForm::groups});
-        expect_oracles_pairs(*block,
-                             Standing(mesh, "oibvh-multi", {.sorted_leaves = is_sorted}, objects));
+        const Standing standing(mesh, "oibvh-multi", {.sorted_leaves = is_sorted}, objects);
+        expect_oracles_pairs(*block, standing);
         EXPECT_EQ(block->counts(session().queue()).pairs, 39u + 38u);
     }
 }
