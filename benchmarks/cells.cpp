@@ -56,7 +56,10 @@ std::string fault_of(const Cell& cell)
 }  // namespace
 
 Cells::Cells(const CommonOptions& common, Plan& plan)
-    : session_(common), plan_(plan), run_(session_, Output(), {}, {})
+    : session_(common)
+    , plan_(plan)
+    , results_({}, false, measured_facts(session_, {}))
+    , run_(session_, results_, {})
 {
     watchdog::go_on_with({});  // after a crash another process could not continue
     session_.other_sampler.is_wanted = [this](const Cell& cell) {

@@ -57,6 +57,7 @@ private:
 
     Session session_;
     Plan& plan_;
+    ResultFile results_;
     Run run_;
     std::size_t scene_ = 0;  ///< number of the scene held
     std::unique_ptr<HeldScene> held_;

@@ -38,6 +38,17 @@ def run(words: list[str], is_kept: bool = False, given: bytes | None = None, err
     return (child.returncode if child.returncode >= 0 else 128 - child.returncode), printed or b""
 
 
+def run_shown(several: list[list[str]]) -> int:
+    """Runs the program once for each list of words, at the same time; what they print is shown. Returns the largest exit code."""
+    with handed_on() as add:
+        children = []
+        for words in several:
+            children.append(started(words, stdin=subprocess.DEVNULL))
+            add(children[-1])
+        codes = [one.wait() for one in children]
+    return max(code if code >= 0 else 128 - code for code in codes)
+
+
 @contextlib.contextmanager
 def handed_on() -> Iterator[Callable[[subprocess.Popen], None]]:
     """Yields a function that registers a child. Signals that end this process, even earlier ones, are forwarded to it."""

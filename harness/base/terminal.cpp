@@ -13,17 +13,6 @@
 namespace bvhbench {
 namespace {
 
-/// Returns "12 s", "3 min" or "5 h 20 min", rounded up.
-std::string rough(double seconds)
-{
-    const auto whole = static_cast<long>(std::ceil(seconds));
-    const long minutes = (whole + 59) / 60;
-    return whole < 90 ? std::to_string(whole) + " s"
-           : minutes < 90
-               ? std::to_string(minutes) + " min"
-               : std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
-}
-
 struct Letter {
     std::size_t size;
     char32_t code;
@@ -58,6 +47,16 @@ double seconds(std::chrono::steady_clock::duration time)
 }
 
 }  // namespace
+
+std::string rough(double seconds)
+{
+    const auto whole = static_cast<long>(std::ceil(seconds));
+    const long minutes = (whole + 59) / 60;
+    return whole < 90 ? std::to_string(whole) + " s"
+           : minutes < 90
+               ? std::to_string(minutes) + " min"
+               : std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+}
 
 std::string printable(std::string_view text)
 {

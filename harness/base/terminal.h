@@ -42,6 +42,9 @@ std::size_t character_count(std::string_view text);
 /// Returns how far some work is after `seconds`, as "what, about 8 s left, 400 of 2000 are done"; with nothing done, as "what, 2 s".
 std::string so_far(const std::string& what, int seconds, std::size_t done, std::size_t total);
 
+/// Returns a time, rounded up: "12 s", "3 min", "5 h".
+std::string rough(double seconds);
+
 /// Clears the progress line.
 constexpr const char* clear_line = "\r\033[K";
 
@@ -63,6 +66,9 @@ public:
     /// Changes the text shown for the current item. The share is how much of it is done; 0: unknown. Notes with a
     /// share are shown a few times a second.
     void note(const std::string& what, double share = 0);
+
+    /// Counts an item that needs no work.
+    void pass() { ++begun_; }
 
     /// Removes the line, before other output.
     void clear() const;

@@ -79,14 +79,16 @@ std::vector<Operation> operations_of(const Json& json)
     return wanted;
 }
 
+}  // namespace
+
 Experiment experiment_of(const Json& json, bool quick)
 {
-    refuse_unknown_keys(json,
-                        {"experiment", "question",    "paper",       "scenes",        "builders",
-                         "operations", "pipelines",   "stages",      "samples",       "warm_up",
-                         "until",      "min_samples", "max_samples", "time_budget_s", "race",
-                         "caches",     "quality",     "doubles",     "skips",         "quick"},
-                        "an experiment");
+    refuse_unknown_keys(
+        json, {"experiment",  "question",      "paper",   "scenes",  "builders", "operations",
+               "pipelines",   "stages",        "samples", "warm_up", "until",    "min_samples",
+               "max_samples", "time_budget_s", "race",    "caches",  "quality",  "doubles",
+               "skips",       "quick",         "label"},
+        "an experiment");
     const bool collides = json.contains("pipelines");
     for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
         if (!json.contains(key))
@@ -96,6 +98,8 @@ Experiment experiment_of(const Json& json, bool quick)
     if (!RE2::FullMatch(experiment.name, "[A-Za-z0-9_-]+"))  // it is part of file names
         throw BadUsage("'experiment' must be letters, digits, - and _, not '" + experiment.name +
                        "'");
+    experiment.label = text_in(json, "label");
+    experiment.source = json.dump();
     experiment.question = text_in(json, "question");
     experiment.paper = text_in(json, "paper");
     if (json.contains("doubles"))
@@ -125,8 +129,6 @@ Experiment experiment_of(const Json& json, bool quick)
     return quick ? quicker : experiment;
 }
 
-}  // namespace
-
 std::span<const std::string_view> experiment_names()
 {
     static constexpr std::string_view names[] = {BVHBENCH_EXPERIMENTS};  // "agreement", ...
@@ -144,14 +146,19 @@ Experiment parse_experiment(std::string_view text, const std::string& origin, bo
     }
 }
 
-Experiment find_experiment(const std::string& name_or_path, bool quick)
+std::string experiment_text(const std::string& name_or_path)
 {
     if (const auto text = embedded_experiment("harness/experiments/" + name_or_path + ".json"))
-        return parse_experiment(*text, name_or_path, quick);
+        return std::string(*text);
     if (!name_or_path.ends_with(".json"))
         throw BadUsage("no experiment is called '" + name_or_path + '\'' +
                        there_are(name_or_path, experiment_names(), "or the path of a .json file"));
-    return parse_experiment(file_text(name_or_path, "the experiment file"), name_or_path, quick);
+    return file_text(name_or_path, "the experiment file");
+}
+
+Experiment find_experiment(const std::string& name_or_path, bool quick)
+{
+    return parse_experiment(experiment_text(name_or_path), name_or_path, quick);
 }
 
 }  // namespace bvhbench

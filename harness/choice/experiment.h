@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "builders/builder.h"
+#include "harness/base/json_keys.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/scene_choice.h"
 
@@ -18,6 +19,8 @@ namespace bvhbench {
 /// a new one needs no code. docs/experiments.md describes their keys.
 struct Experiment {
     std::string name;
+    std::string label;   ///< what a part of a plan is called in messages; may be empty
+    std::string source;  ///< the JSON that it was read from
     std::string question;
     std::string paper;  ///< table or figure of the paper that it reproduces; may be empty
     std::vector<std::string> scenes;
@@ -45,11 +48,17 @@ struct Experiment {
     }
 };
 
-/// Parses an experiment. Throws BadUsage, naming `origin` and the key, for unknown keys and invalid values.
+/// Reads an experiment. Throws BadUsage, naming the key, for unknown keys and invalid values.
+Experiment experiment_of(const Json& json, bool quick);
+
+/// The same of a text. Throws BadUsage, naming `origin` and the key.
 Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick);
 
-/// Returns the embedded experiment of that name, or reads the file if `name_or_path` ends in .json. Throws BadUsage with the
+/// Returns the text of the embedded experiment of that name, or of the file if `name_or_path` ends in .json. Throws BadUsage with the
 /// known names, or Unavailable if the file cannot be read.
+std::string experiment_text(const std::string& name_or_path);
+
+/// Returns the experiment of that name or file. Throws as experiment_text and parse_experiment do.
 Experiment find_experiment(const std::string& name_or_path, bool quick);
 
 /// Returns the names of the embedded experiments, in alphabetical order.

@@ -48,7 +48,8 @@ public:
         const OutputRules rules =
             result_rules(common.force, files_of(task_.scenes, session.scenes()));
         check_pictures(folder, "--out", rules);
-        ResultFile results(Output(file, "--out", rules), measured_facts(session, invocation.words));
+        ResultFile results(Output(file, "--out", rules), common.force,
+                           measured_facts(session, invocation.words));
         Progress progress(axes.size());
         int order = 0;
         for (const Axis& axis : axes) {

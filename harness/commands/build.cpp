@@ -50,14 +50,15 @@ public:
                            std::to_string(choices.size()) + " builders and orders");
         const CommonOptions& common = invocation.common;
         Session session(common);
-        const auto rules =
-            result_rules(common.force, scene_files(scene_, session.scenes()), watchdog::run_id());
+        const auto rules = result_rules(common.force, scene_files(scene_, session.scenes()));
         const Output dumped(dump_, "--dump", rules);
-        Run run(session, Output(json_, "--json", rules), invocation.words, costs_);
-        run.experiment(experiment(choices));
-        run.finish();
-        const int code = run.results().exit_code();
-        print_tables(run.results().text(), common);
+        ResultFile results(Output(json_, "--json", rules), common.force,
+                           measured_facts(session, invocation.words, costs_), watchdog::run_id());
+        watchdog::go_on_with(results.run_id());
+        Run(session, results, costs_).experiment(experiment(choices));
+        results.finish(session.end_of_run());
+        const int code = results.exit_code();
+        print_tables(results.text(), common);
         if (!dumped.is_nowhere())
             dump(session, choices.front().builder, dumped);
         return code;

@@ -51,11 +51,10 @@ public:
         CollideTask task = this->task();  // reports wrong options before opening the device
         const CommonOptions& common = invocation.common;
         Session session(common);
-        const OutputRules rules =
-            result_rules(common.force, files_of(scenes_, session.scenes()), watchdog::run_id());
+        const OutputRules rules = result_rules(common.force, files_of(scenes_, session.scenes()));
         const Output pairs(pairs_, "--pairs", rules), contacts(contacts_, "--contacts", rules);
         Output json(json_, "--json", rules);
-        ResultFile results(std::move(json), measured_facts(session, invocation.words),
+        ResultFile results(std::move(json), common.force, measured_facts(session, invocation.words),
                            watchdog::run_id());
         PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept, task.swept);
         watchdog::go_on_with(results.run_id());

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/run.h"
 
+#include <fstream>
 #include <iostream>
+#include <set>
 
 #include "geometry/error.h"
+#include "geometry/hash.h"
+#include "harness/base/build_info.h"
 #include "harness/base/python.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
+#include "harness/record/provenance.h"
 #include "harness/session/watchdog.h"
 
 namespace bvhbench {
@@ -16,7 +21,8 @@ class RunExperiment final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        app.add_option("EXPERIMENT", name_, "a name of `list experiments`, or a .json file")
+        app.add_option("EXPERIMENT", name_,
+                       "a name of `list experiments`, or a .json file of an experiment or a plan")
             ->required();
         app.add_option("--out", out_,
                        "the result file; default: <experiment>.json, of a file's experiment "
@@ -25,45 +31,73 @@ public:
         add_sampling(app, samples_, "timed builds a cell", sampling_);
         app.add_option("--turns", turns_,
                        "FILE:N: sample by turns with other runs, N in all, that name the file");
+        app.add_option("--only", only_,
+                       "i/n: only the i-th of n shares of the scenes; then merge the files");
+        app.add_flag("--resume", resuming_.is_asked,
+                     "go on with what the result file and its journal have");
+        app.add_flag("--continue-other-commit", resuming_.other_commits,
+                     "with --resume: keep cells that another commit has measured");
+        app.add_flag("--retry-failed", resuming_.retries_failed,
+                     "with --resume: measure scenes with a failed cell again");
         app.add_flag("--quick", quick_, "fewer scenes and samples");
         add_quality(app, quality_, costs_);
     }
 
     int run(const Invocation& invocation) override
     {
-        const Experiment experiment = this->experiment();
+        const RunPlan plan = this->plan();
         const CellFilter filter = cell_filter(filter_);
-        if (parts_of(experiment, filter) == 0)
-            throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + filter_ +
-                           "'");
-        const bool is_file = name_.ends_with(".json");
-        const std::string out = !out_.empty() ? out_
-                                : is_file     ? experiment.name + "-results.json"
-                                              : experiment.name + ".json";
+        const PlanShare share = share_called(only_);
+        const auto scenes_with = [&](const std::string& settings) {
+            return planned_scenes(plan, filter, share, settings);
+        };
+        if (scenes_with("").empty() && plan.impossible.empty())
+            throw BadUsage("--filter and --only: no cell of " + plan.name + " is left");
         const CommonOptions& common = invocation.common;
+        ResultFile results(
+            Output(out(plan), "--out", result_rules(common.force, inputs(plan, common), resumes())),
+            common.force, resuming_, watchdog::run_id());
+        watchdog::let_signals_through();
         Session session(common);
-        std::vector<std::string> scenes = experiment.scenes;
-        for (const CollideTask& task : experiment.collisions)
-            scenes.push_back(task.scene);
-        std::vector<std::string> inputs = files_of(scenes, session.scenes());
-        if (is_file)
-            inputs.push_back(name_);
-        Run run(
-            session,
-            Output(out, "--out", result_rules(common.force, std::move(inputs), watchdog::run_id())),
-            invocation.words, costs_);
-        session.take_turns(turns_, run.results().run_id());
-        run.experiment(experiment, filter);
-        run.finish();
-        print_tables(run.results().text(), common);
-        std::cout << run.results().written();
-        return run.results().exit_code();
+        const std::vector<PlannedScene> scenes = scenes_with(settings(session, common));
+        if (resumes())
+            results.check_earlier(keys(planned_scenes(plan, filter, {}, settings(session, common))),
+                                  run_facts(session.device(), {}));
+        Run run(session, results, costs_);
+        const auto begin = [&] {
+            results.begin(results.has_begun() ? Json()
+                                              : measured_facts(session, invocation.words, costs_));
+            watchdog::go_on_with(results.run_id());
+            session.take_turns(turns_, results.run_id());
+        };
+        if (!run.scenes(plan, scenes, filter, begin))
+            return 0;
+        if (scenes.empty())
+            begin();
+        if (share.i == 1)
+            for (const Json& cell : plan.impossible)
+                results.add_impossible(cell);
+        results.finish(session.end_of_run());
+        print_tables(results.text(), common);
+        std::cout << results.written();
+        return results.exit_code();
     }
 
 private:
-    Experiment experiment() const
+    bool resumes() const { return resuming_.is_asked; }
+
+    RunPlan plan() const
     {
-        Experiment experiment = find_experiment(name_, quick_);
+        if (!resumes() && (resuming_.other_commits || resuming_.retries_failed))
+            throw BadUsage("--continue-other-commit and --retry-failed need --resume");
+        RunPlan plan = find_plan(name_, quick_);
+        for (Experiment& experiment : plan.parts)
+            apply_options(experiment);
+        return plan;
+    }
+
+    void apply_options(Experiment& experiment) const
+    {
         if (samples_ > 0) {
             experiment.samples = samples_;
             experiment.sampling.until = 0;
@@ -74,10 +108,72 @@ private:
         for (CollideTask& task : experiment.collisions)
             task.sampling = experiment.sampling;
         experiment.quality = experiment.quality || quality_;
-        return experiment;
     }
 
-    std::string name_, out_, filter_, turns_;
+    std::string out(const RunPlan& plan) const
+    {
+        const bool is_file = name_.ends_with(".json");
+        return !out_.empty() ? out_ : plan.name + (is_file ? "-results.json" : ".json");
+    }
+
+    std::vector<std::string> inputs(const RunPlan& plan, const CommonOptions& common) const
+    {
+        std::vector<std::string> scenes;
+        for (const Experiment& experiment : plan.parts) {
+            scenes.insert(scenes.end(), experiment.scenes.begin(), experiment.scenes.end());
+            for (const CollideTask& task : experiment.collisions)
+                scenes.push_back(task.scene);
+        }
+        std::vector<std::string> inputs = files_of(scenes, scene_library(common));
+        if (name_.ends_with(".json"))
+            inputs.push_back(name_);
+        return inputs;
+    }
+
+    /// Returns what decides, beside the plan, what is measured. Of a program with changes in no commit, its file is part of it.
+    std::string settings(const Session& session, const CommonOptions& common) const
+    {
+        Json words = {filter_,
+                      samples_,
+                      sampling_.until.value_or(0),
+                      sampling_.time_budget_s.value_or(0),
+                      sampling_.drift_limit.value_or(0),
+                      sampling_.min_samples.value_or(0),
+                      sampling_.max_samples.value_or(0),
+                      sampling_.calibrate_every.value_or(0),
+                      sampling_.race,
+                      sampling_.caches,
+                      quick_,
+                      quality_,
+                      costs_.inner,
+                      costs_.triangle,
+                      common.doubles,
+                      session.device().tuning.values()};
+        if (build_info.dirty)
+            words.push_back(hash_of_program());
+        return words.dump();
+    }
+
+    static std::string hash_of_program()
+    {
+        std::ifstream file("/proc/self/exe", std::ios::binary);
+        Hash hash;
+        for (std::vector<char> piece(1 << 20);
+             file.read(piece.data(), piece.size()) || file.gcount() > 0;)
+            hash.bytes(piece.data(), static_cast<std::size_t>(file.gcount()));
+        return hex(hash.get());
+    }
+
+    static std::set<std::string> keys(const std::vector<PlannedScene>& scenes)
+    {
+        std::set<std::string> keys;
+        for (const PlannedScene& scene : scenes)
+            keys.insert(scene.key);
+        return keys;
+    }
+
+    std::string name_, out_, filter_, turns_, only_;
+    Resuming resuming_;
     int samples_ = 0;  ///< 0: the experiment's number
     SamplingWords sampling_;
     bool quick_ = false;
@@ -90,13 +186,16 @@ private:
 extern const CommandEntry run_command = {
     "run",
     measuring,
-    "Run an experiment and write its result file",
+    "Run an experiment, or a plan of several, and write its result file",
     "An experiment is a list of scenes, builders, colliders and samples, as JSON; some are in the "
-    "program. Builders of a scene are sampled in turn. What is finished is in the result file at "
-    "once.",
+    "program. Builders of a scene are sampled in turn. While it runs, finished cells are in a "
+    "journal "
+    "beside the result file, from which --resume goes on.",
     {{"bvhbench run peers --out peers.json", "an experiment of `list experiments`"},
      {"bvhbench run mine.json --filter bunny/oibvh --samples 50",
       "one of your own, and part of it"},
+     {"bvhbench run plan.json --only 2/8 --resume --out part-2.json",
+      "the second of eight machines"},
      {"bvhbench run smoke --turns turns:2 --out a.json",
       "by turns with a second run of another build"}},
     "docs/experiments.md",

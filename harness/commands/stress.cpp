@@ -28,7 +28,7 @@ public:
         const CommonOptions& common = invocation.common;
         refuse_outside(common, "stress");
         Session session(common);
-        ResultFile results(Output(out_, "--out", result_rules(common.force, {})),
+        ResultFile results(Output(out_, "--out", result_rules(common.force, {})), common.force,
                            run_facts(session.device(), invocation.words));
         bool has_fault = false, all_refused = true;
         std::string why_refused;

@@ -50,12 +50,12 @@ std::string device_text(const Device& device)
 
 int check_portable(Session& session, std::vector<std::string> command)
 {
-    Run run(session, {}, std::move(command), {});
-    run.experiment(portable_experiment());
-    run.finish();
+    ResultFile results({}, false, measured_facts(session, std::move(command)));
+    Run(session, results, {}).experiment(portable_experiment());
+    results.finish(session.end_of_run());
     std::cout << device_text(session.device()) << '\n';
-    print_tables(run.results().text(), {});
-    return run.results().exit_code();
+    print_tables(results.text(), {});
+    return results.exit_code();
 }
 
 }  // namespace bvhbench

@@ -2,10 +2,14 @@
 #include "harness/measure/run.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <utility>
 
 #include "builders/device_tree.h"
 #include "device/yardsticks.h"
 #include "geometry/error.h"
+#include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"
 #include "harness/base/test_hooks.h"
@@ -41,6 +45,31 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
             builders.push_back(builder);
     return builders;
 }
+
+/// Cost of a process's start, in triangles.
+constexpr std::size_t triangles_of_a_start = 100'000;
+
+/// Guesses the time of the scenes that are left from those before, by their weights.
+struct TimeLeft {
+    double weight = 0;  ///< of the scenes that are left
+    double known_weight = 0, known_seconds = 0;
+
+    void count(double done, double seconds)
+    {
+        weight -= done;
+        if (seconds > 0) {
+            known_weight += done;
+            known_seconds += seconds;
+        }
+    }
+
+    /// Returns "; about 3 min left", or nothing.
+    std::string text() const
+    {
+        const double seconds = known_weight > 0 ? weight * known_seconds / known_weight : 0;
+        return seconds > 0 ? "; about " + rough(seconds) + " left" : "";
+    }
+};
 
 /// A builder, its last tree and the stages of its first build; of a refit they are empty.
 struct Built {
@@ -128,18 +157,6 @@ Json measured_facts(Session& session, std::vector<std::string> command, const No
     return facts;
 }
 
-Run::Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs)
-    : session_(session)
-    , costs_(costs)
-    , results_(std::move(output), measured_facts(session, std::move(command), costs),
-               watchdog::run_id())
-    , order_(results_.next_order())
-{
-    watchdog::go_on_with(results_.run_id());
-}
-
-void Run::finish() { results_.finish(session_.end_of_run()); }
-
 std::vector<std::string> files_of(const std::vector<std::string>& scenes,
                                   const SceneLibrary& library)
 {
@@ -165,40 +182,112 @@ bool passes(const CellFilter& filter, const std::string& cell)
     return filter == nullptr || re2::RE2::PartialMatch(cell, *filter);
 }
 
-std::size_t parts_of(const Experiment& experiment, const CellFilter& filter)
+std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& filter,
+                                         const PlanShare& share, const std::string& settings)
 {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(
-            experiment.scenes,
-            [&](const std::string& scene) { return !chosen(experiment, scene, filter).empty(); }) +
-        std::ranges::count_if(experiment.collisions, [&](const CollideTask& task) {
-            return !chosen(task, filter).empty();
-        }));
+    std::vector<PlannedScene> found;
+    std::size_t number = 0;
+    const auto add = [&](const Experiment& experiment, const std::string& name, std::size_t cells,
+                         const CollideTask* task) {
+        PlannedScene planned{&experiment, number, task, name, "", 0};
+        if (!share.has(number++) || cells == 0)
+            return;
+        std::size_t triangles = 0;
+        reason_of_failure([&] { triangles = triangles_said(name); });
+        planned.weight = static_cast<double>(cells * (triangles + triangles_of_a_start));
+        if (!settings.empty()) {
+            Hash hash;
+            for (const std::string& text : {settings, experiment.source, name})
+                hash.bytes(text.c_str(), text.size() + 1);
+            // An experiment may have a scene twice, with other frames or as builds and as pipelines.
+            hash.value(plan.has_parts ? 0 : planned.number);
+            planned.key = hex(hash.get());
+        }
+        found.push_back(std::move(planned));
+    };
+    for (const Experiment& experiment : plan.parts) {
+        for (const CollideTask& task : experiment.collisions)
+            add(experiment, task.scene, chosen(task, filter).size(), &task);
+        for (const std::string& name : experiment.scenes)
+            add(experiment, name, chosen(experiment, name, filter).size(), nullptr);
+    }
+    return found;
 }
 
-void Run::experiment(const Experiment& experiment, const CellFilter& filter)
+void Run::experiment(const Experiment& experiment)
 {
-    session_.read_doubles(experiment.doubles);
-    Progress progress(parts_of(experiment, filter));
-    for (const CollideTask& task : experiment.collisions)
-        collisions(task, filter, progress);
-    for (const std::string& name : experiment.scenes)
-        if (const auto builders = chosen(experiment, name, filter); !builders.empty()) {
-            progress.step(experiment.name + ": " + name);
-            scene(experiment, name, builders, progress);
+    RunPlan plan{.name = experiment.name, .parts = {experiment}};
+    scenes(plan, planned_scenes(plan, {}, {}, ""), {}, [] {});
+}
+
+bool Run::scenes(const RunPlan& plan, std::span<const PlannedScene> scenes,
+                 const CellFilter& filter, const std::function<void()>& begin)
+{
+    using Clock = std::chrono::steady_clock;
+    Progress progress(scenes.size());
+    TimeLeft left;
+    for (const PlannedScene& planned : scenes)
+        left.weight += planned.weight;
+    bool has_begun = false;
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+        const PlannedScene& planned = scenes[k];
+        if (!planned.key.empty()) {
+            if (const auto seconds = results_.take_part(planned.key)) {
+                left.count(planned.weight, *seconds);
+                progress.pass();
+                continue;
+            }
+            if (has_begun && plan.has_parts && results_.has_journal() &&
+                watchdog::can_begin_another()) {
+                watchdog::begin_another();
+                results_.leave();
+                return false;
+            }
         }
+        if (!std::exchange(has_begun, true))
+            begin();
+        if (!planned.key.empty())
+            results_.begin_part(planned.key);
+        const auto start = Clock::now();
+        measure(planned, filter, progress);
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!planned.key.empty())
+            results_.end_part(seconds);
+        left.count(planned.weight, seconds);
+        if (plan.has_parts) {
+            progress.clear();
+            const std::string& label = planned.experiment->label;
+            std::printf("[%zu/%zu] %s: %s, %.1f s%s\n", k + 1, scenes.size(),
+                        printable(label.empty() ? planned.name : label).c_str(),
+                        printable(results_.outcome_of_part()).c_str(), seconds,
+                        left.text().c_str());
+            std::fflush(stdout);
+        }
+    }
+    return true;
+}
+
+void Run::measure(const PlannedScene& planned, const CellFilter& filter, Progress& progress)
+{
+    const Experiment& experiment = *planned.experiment;
+    number_ = planned.number;
+    session_.read_doubles(experiment.doubles);
+    if (planned.collides != nullptr) {
+        collisions(*planned.collides, filter, progress);
+        return;
+    }
+    progress.step(experiment.name + ": " + planned.name);
+    scene(experiment, planned.name, chosen(experiment, planned.name, filter), progress);
 }
 
 void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
 {
     const std::string title = task.experiment + ": " + task.scene;
-    task.number = std::to_string(scenes_++);
+    task.number = std::to_string(number_);
     task.pipelines = chosen(task, filter);
     task.note = [&](const std::string& what, double share) {
         progress.note(title + ", " + what, share);
     };
-    if (task.pipelines.empty())
-        return;
     progress.step(title);
     collide_frames(
         session_, task, order_,
@@ -212,7 +301,7 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
 void Run::scene(const Experiment& experiment, const std::string& name,
                 std::span<const BuilderChoice> builders, Progress& progress)
 {
-    const std::string number = std::to_string(scenes_++) + '/';
+    const std::string number = std::to_string(number_) + '/';
     if (results_.pass(builders.size() * experiment.operations.size() *
                       experiment.sampling.caches.size()))
         return;

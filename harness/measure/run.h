@@ -3,10 +3,14 @@
 
 #include <re2/re2.h>
 
+#include <functional>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "harness/base/terminal.h"
-#include "harness/choice/experiment.h"
+#include "harness/choice/run_plan.h"
 #include "harness/record/result_file.h"
 #include "harness/session/session.h"
 
@@ -26,40 +30,54 @@ CellFilter cell_filter(const std::string& text, const char* option = "--filter")
 /// True if any part of `cell` matches the filter, or if that is null.
 bool passes(const CellFilter& filter, const std::string& cell);
 
-/// Returns the number of scenes of the experiment, of builds and of collisions, that have a cell that matches.
-std::size_t parts_of(const Experiment& experiment, const CellFilter& filter);
+/// A scene of a plan, with its builders or with its pipelines.
+struct PlannedScene {
+    const Experiment* experiment;
+    std::size_t number;           ///< among all scenes of the plan
+    const CollideTask* collides;  ///< nullptr: a scene of builds, `name`
+    std::string name;
+    std::string key;  ///< a hash of all that decides what is measured; empty: it has none
+    double weight;    ///< for guesses of its time: cells times triangles, as far as these are known
+};
+
+/// Returns the scenes that have a cell that matches. `settings` is what decides beside the plan; empty: there are no keys.
+std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& filter,
+                                         const PlanShare& share, const std::string& settings);
 
 /// Returns run_facts (harness/record/provenance.h) with the device's copy rate and launch cost, which it measures. Throws Unavailable
 /// if the clocks disagree (Session::check_clocks).
 Json measured_facts(Session& session, std::vector<std::string> command,
                     const NodeCosts& costs = {});
 
-/// Runs experiments scene by scene: all builders of a scene are prepared and checked, then sampled interleaved.
+/// Runs plans scene by scene: all builders of a scene are prepared and checked, then sampled interleaved.
 ///
 /// A builder or scene that fails leaves a cell with the reason, and the run continues.
 class Run {
 public:
-    /// Measures the device's copy rate and launch cost. Writes no file if `output` is a default Output.
-    Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs);
+    /// `results` takes the cells.
+    Run(Session& session, ResultFile& results, const NodeCosts& costs)
+        : session_(session), costs_(costs), results_(results), order_(results.next_order())
+    {}
 
-    /// Measures all cells of the experiment that match. A cell that cannot be measured has the reason.
-    void experiment(const Experiment& experiment, const CellFilter& filter = {});
+    /// Measures all cells of an experiment. A cell that cannot be measured has the reason.
+    void experiment(const Experiment& experiment);
 
-    /// Ends the run and writes its file.
-    void finish();
-
-    const ResultFile& results() const { return results_; }
+    /// Measures those scenes of a plan that `results` does not have, and tells of each if the plan has parts. `begin` is called before
+    /// the first. Returns false if another process must go on: each part has its own.
+    bool scenes(const RunPlan& plan, std::span<const PlannedScene> scenes, const CellFilter& filter,
+                const std::function<void()>& begin);
 
 private:
+    void measure(const PlannedScene& planned, const CellFilter& filter, Progress& progress);
     void collisions(CollideTask task, const CellFilter& filter, Progress& progress);
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
 
     Session& session_;
     NodeCosts costs_;
-    ResultFile results_;
+    ResultFile& results_;
     int order_ = 0;
-    int scenes_ = 0;  ///< number of scenes begun so far
+    std::size_t number_ = 0;  ///< of the scene that is measured
 };
 
 /// Prints the device with its limits, then one line for each builder, collider and narrow phase over the scenes of `smoke`, each

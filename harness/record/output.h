@@ -48,6 +48,9 @@ public:
     /// Path as given by the user.
     const std::filesystem::path& path() const { return path_; }
 
+    /// Returns the path of a file beside the one that is replaced, whose name has `end` appended.
+    std::filesystem::path beside(const char* end) const { return target_.string() + end; }
+
     /// Replaces the file by `text`. Throws Unavailable with the system's reason and leaves the old file unchanged.
     void replace(std::string_view text) const;
 

@@ -2,7 +2,9 @@
 #include "harness/record/result_file.h"
 
 #include <algorithm>
-#include <functional>
+#include <chrono>
+#include <iomanip>
+#include <sstream>
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -11,16 +13,7 @@
 namespace bvhbench {
 namespace {
 
-/// Parses the text if it is a result file of the run `run_id`; else returns nothing.
-std::optional<Json> document_of(const std::string& run_id, const std::string& text)
-{
-    Json json = Json::parse(text, nullptr, false);
-    const bool is_own = !run_id.empty() && json.is_object() &&
-                        json.value("format", "") == result_format && json.contains("run") &&
-                        json["run"].is_object() && json["run"].value("id", "") == run_id &&
-                        json.contains("cells");
-    return is_own ? std::optional(std::move(json)) : std::nullopt;
-}
+constexpr const char* journal_end = ".journal";
 
 /// Records the process's memory. Keeps larger values that an earlier process of the same run recorded.
 void note_memory(Json& run)
@@ -36,56 +29,223 @@ void note_memory(Json& run)
                               {"peak_bytes", most("peak_bytes", now.peak)}};
 }
 
+/// Returns what a file of several runs keeps of each (results/schema, `source`). `run` may be that already.
+Json source_of(const Json& run)
+{
+    if (!run.contains("program"))
+        return run;
+    Json source;
+    const auto keep = [&](const Json& facts, const char* key, const char* name) {
+        if (facts.contains(key))
+            source[name] = facts[key];
+    };
+    for (const char* key : {"id", "started_at", "finished_at", "command"})
+        keep(run, key, key);
+    keep(run["program"], "commit", "commit");
+    keep(run["program"], "dirty", "dirty");
+    keep(run["host"], "name", "host");
+    keep(run["device"], "name", "device");
+    keep(run["device"], "driver", "driver");
+    for (const char* key : {"copy_rate_bytes_per_s", "launch_cost_ns", "conditions"})
+        keep(run, key, key);
+    return source;
+}
+
+std::string device_of(const Json& source)
+{
+    return source.value("device", "") + ", driver " + source.value("driver", "");
+}
+
+std::string program_of(const Json& source)
+{
+    return "commit " + source.value("commit", "").substr(0, 10) +
+           (source.value("dirty", false) ? " with changes" : "");
+}
+
+std::string with_key(std::string text, const char* key, const std::string& value)
+{
+    text.pop_back();
+    return text + ",\"" + key + "\":\"" + value + "\"}";
+}
+
+std::string counted(std::size_t cells)
+{
+    return std::to_string(cells) + (cells == 1 ? " cell" : " cells");
+}
+
 }  // namespace
 
-OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run)
+OutputRules result_rules(bool force, std::vector<std::string> inputs, bool resumes)
 {
     return {.force = force,
             .inputs = std::move(inputs),
-            .may_replace = [own_run = std::move(own_run)](const std::string& text) {
-                return document_of(own_run, text).has_value();
-            }};
+            .may_replace = [resumes](const std::string&) { return resumes; }};
 }
 
-ResultFile::ResultFile(Output output, Json run, const std::string& goes_on)
-    : output_(std::move(output)), run_(std::move(run))
+ResultFile::ResultFile(Output output, bool force, const Resuming& resuming,
+                       const std::string& goes_on)
+    : output_(std::move(output)), resuming_(resuming)
 {
-    if (!goes_on.empty() && output_.was_there())
-        take_over(goes_on);
-    if (output_.is_file())
-        at_signal_.emplace([this] { keep(); }, "finished cells are kept");
-}
-
-void ResultFile::take_over(const std::string& run_id)
-{
-    const std::optional<Json> json =
-        document_of(run_id, file_text(output_.path(), "the result file"));
-    if (!json)
+    if (!output_.is_file())
         return;
-    run_ = (*json)["run"];
-    for (const Json& cell : (*json)["cells"]) {
-        cells_.push_back({.text = cell.dump(),
-                          .is_measured = cell.value("status", "") == "measured",
-                          .differs = cell.value("/check/verdict"_json_pointer, "") == "differs",
-                          .reason = cell.value("reason", "")});
-        for (const Json& sample : cell.value("samples", Json::array()))
-            next_order_ = std::max(next_order_, sample.value("order", 0) + 1);
+    const std::filesystem::path path = output_.beside(journal_end);
+    const bool has_journal = std::filesystem::exists(path);
+    if (resuming_.is_asked && output_.was_there())
+        earlier_ = measured_in(output_.path());
+    if (has_journal && (resuming_.is_asked || !goes_on.empty()))
+        add_journal(path, earlier_);
+    else if (has_journal && !force)
+        throw BadUsage(path.string() +
+                       " has cells of a run that did not end: `run --resume` goes on with those of "
+                       "a plan, --force begins anew");
+    else if (has_journal)
+        std::filesystem::remove(path);
+    run_ = earlier_.last_run;
+    has_begun_ = !goes_on.empty() && run_.is_object() && run_.value("id", "") == goes_on;
+    is_written_ = !has_journal;
+    has_measured_ = !earlier_.parts.empty();
+    at_signal_.emplace([this] { keep(); }, "finished cells are kept");
+}
+
+ResultFile::ResultFile(Output output, bool force, Json run, const std::string& goes_on)
+    : ResultFile(std::move(output), force, Resuming{}, goes_on)
+{
+    begin(std::move(run));
+    begin_part({});
+}
+
+ResultFile::~ResultFile()
+{
+    at_signal_.reset();
+    if (is_left_)
+        return;
+    try {
+        keep();
+    } catch (const std::exception&) {  // destructors must not throw
     }
-    has_measured_ = true;  // the earlier file belongs to this run
-    goes_on_ = true;
+}
+
+void ResultFile::begin(Json run)
+{
+    const std::lock_guard lock(mutex_);
+    if (output_.is_file())
+        journal_.open(output_.beside(journal_end));
+    if (has_begun_)
+        return;
+    has_begun_ = true;
+    run_ = std::move(run);
+    earlier_.runs.push_back(run_);
+    journal_.append("{\"run\": " + one_line(run_) + '}');
+}
+
+void ResultFile::check_earlier(const std::set<std::string>& keys, const Json& run) const
+{
+    const auto foreign = std::ranges::count_if(
+        earlier_.order, [&](const std::string& key) { return !keys.contains(key); });
+    const std::string holds = output_.path().string() + " has ";
+    const char* const instead = "; choose another --out, or --force begins anew";
+    if (foreign > 0)
+        throw BadUsage(
+            holds + std::to_string(foreign) + " of " + std::to_string(earlier_.order.size()) +
+            " parts that are none of this plan, or were measured with other options" + instead);
+    const Json own = source_of(run);
+    for (const Json& each : earlier_.runs) {
+        const Json source = source_of(each);
+        if (device_of(source) != device_of(own))
+            throw BadUsage(holds + "cells of " + device_of(source) + ", and this is " +
+                           device_of(own) + instead);
+        if (program_of(source) != program_of(own) && !resuming_.other_commits)
+            throw BadUsage(holds + "cells by " + program_of(source) + ", and this program is of " +
+                           program_of(own) + ": --continue-other-commit keeps them and goes on" +
+                           instead);
+    }
+}
+
+std::optional<double> ResultFile::take_part(const std::string& key)
+{
+    const std::lock_guard lock(mutex_);
+    const auto found = earlier_.parts.find(key);
+    if (found == earlier_.parts.end() || !found->second.has_ended)
+        return std::nullopt;
+    const std::string own = has_begun_ ? run_id() : "";
+    const auto is_to_retry = [&](const Json& cell) {
+        return cell.value("status", "") == "failed" && cell.value("run", "") != own;
+    };
+    if (resuming_.retries_failed && std::ranges::any_of(found->second.cells, is_to_retry)) {
+        found->second.cells.clear();
+        return std::nullopt;
+    }
+    take_over(found->second.cells);
+    const double seconds = found->second.seconds;
+    earlier_.parts.erase(found);
+    return seconds;
+}
+
+void ResultFile::begin_part(const std::string& key)
+{
+    const std::lock_guard lock(mutex_);
+    part_ = key;
+    part_begin_ = cells_.size();
+    taken_ = 0;
+    const auto found = earlier_.parts.find(key);
+    const bool is_known = found != earlier_.parts.end();
+    there_ = is_known ? std::move(found->second.cells) : std::vector<Json>();
+    if (!is_known)
+        return;
+    if (there_.empty())
+        journal_.append("{\"part\": \"" + part_ + "\", \"keeps\": 0}");
+    earlier_.parts.erase(found);
 }
 
 bool ResultFile::pass(std::size_t count)
 {
     const std::lock_guard lock(mutex_);
-    if (goes_on_ && cells_.size() >= passed_ + count) {
-        passed_ += count;
+    if (count > 0 && there_.size() >= taken_ + count) {
+        take_over(std::span(there_).subspan(taken_, count));
+        taken_ += count;
         return true;
     }
-    if (goes_on_)
-        cells_.resize(passed_);
-    goes_on_ = false;
+    if (there_.size() > taken_)
+        journal_.append("{\"part\": \"" + part_ + "\", \"keeps\": " + std::to_string(taken_) + '}');
+    there_.resize(taken_);
     return false;
+}
+
+void ResultFile::end_part(double seconds)
+{
+    const std::lock_guard lock(mutex_);
+    std::ostringstream line;
+    line << "{\"part\": \"" << part_ << "\", \"ended\": " << std::fixed << std::setprecision(1)
+         << seconds << '}';
+    journal_.append(line.str());
+}
+
+/// Returns a cell of which nothing more will change.
+ResultFile::Kept ResultFile::kept(Json cell, const std::string& run)
+{
+    cell.erase("run");
+    return {.text = cell.dump(),
+            .run = run,
+            .verdict = cell.value("/check/verdict"_json_pointer, ""),
+            .reason = cell.value("reason", ""),
+            .is_measured = cell.value("status", "") == "measured"};
+}
+
+void ResultFile::take_over(std::span<const Json> cells)
+{
+    for (const Json& cell : cells)
+        cells_.push_back(kept(cell, cell.at("run")));
+}
+
+int ResultFile::next_order() const
+{
+    int next = 0;
+    for (const auto& [key, part] : earlier_.parts)
+        for (const Json& cell : part.cells)
+            if (has_begun_ && cell.value("run", "") == run_id())
+                for (const Json& sample : cell.value("samples", Json::array()))
+                    next = std::max(next, sample.value("order", 0) + 1);
+    return next;
 }
 
 void ResultFile::keep()
@@ -96,26 +256,33 @@ void ResultFile::keep()
         throw Unavailable(output_.path().string() + " takes too long to write");
     if (!is_written_ && output_.is_file())
         write();
+    remove_journal();
 }
 
-ResultFile::~ResultFile()
+void ResultFile::leave()
 {
-    at_signal_.reset();
-    try {
-        keep();
-    } catch (const std::exception&) {  // destructors must not throw
-    }
+    const std::lock_guard lock(mutex_);
+    is_left_ = true;
+}
+
+/// Writes a line to the journal, `text` as its `kind`.
+void ResultFile::add_line(const char* kind, const std::string& text)
+{
+    is_written_ = false;
+    journal_.append("{\"part\": \"" + part_ + "\", \"" + kind + "\": " + text + '}');
 }
 
 void ResultFile::add(const Cell& cell)
 {
     const std::lock_guard lock(mutex_);
     has_measured_ = has_measured_ || cell.status == Cell::Status::measured;
-    cells_.push_back({.text = cell_text(cell),
-                      .is_measured = cell.status == Cell::Status::measured,
-                      .differs = cell.check.verdict == Check::Verdict::differs,
-                      .reason = cell.reason});
-    write_if_due();
+    const std::string text = cell_text(cell);
+    cells_.push_back({.text = part_.empty() ? text : with_key(text, "part", part_),
+                      .run = run_.value("id", ""),
+                      .verdict = std::string(verdict_name(cell.check.verdict)),
+                      .reason = cell.reason,
+                      .is_measured = cell.status == Cell::Status::measured});
+    add_line("cell", cells_.back().text);
 }
 
 void ResultFile::add(const StressCell& cell)
@@ -123,53 +290,91 @@ void ResultFile::add(const StressCell& cell)
     const std::lock_guard lock(mutex_);
     has_measured_ = true;
     stress_.push_back(cell_text(cell));
-    write_if_due();
+    add_line("stress", stress_.back());
 }
 
-void ResultFile::write_if_due()
+void ResultFile::add_impossible(const Json& cell)
 {
-    using namespace std::chrono_literals;
-    is_written_ = false;
-    if (output_.is_file() && std::chrono::steady_clock::now() - written_at_ >= 500ms)
-        write();
+    const std::lock_guard lock(mutex_);
+    cells_.push_back(kept(cell, run_.value("id", "")));
 }
 
 void ResultFile::finish(const EndOfRun& end)
 {
     const std::lock_guard lock(mutex_);
-    run_["compile_ns"] = end.compile_ns;
-    if (!end.turns_with.empty())
-        run_["turns_with"] = end.turns_with;
-    if (end.other_processes)
-        put_other_processes(run_["conditions"], *end.other_processes);
+    if (is_written_ && !has_begun_)
+        return;  // all of it was there
+    if (has_begun_) {
+        run_["compile_ns"] = end.compile_ns;
+        if (!end.turns_with.empty())
+            run_["turns_with"] = end.turns_with;
+        if (end.other_processes)
+            put_other_processes(run_["conditions"], *end.other_processes);
+    }
     run_["finished_at"] = utc_now();
     write();
+    remove_journal();
+}
+
+/// Returns all cells: those of parts that were not begun come last.
+std::vector<ResultFile::Kept> ResultFile::all_cells() const
+{
+    std::vector<Kept> all = cells_;
+    for (std::size_t k = taken_; k < there_.size(); ++k)
+        all.push_back(kept(there_[k], there_[k].at("run")));
+    for (const std::string& key : earlier_.order)
+        if (const auto part = earlier_.parts.find(key); part != earlier_.parts.end())
+            for (const Json& cell : part->second.cells)
+                all.push_back(kept(cell, cell.at("run")));
+    return all;
 }
 
 std::string ResultFile::text() const
 {
-    const auto lines = [](const auto& cells, const auto& text_of) {
-        std::string text;
-        for (const auto& cell : cells)
-            text += (text.empty() ? "\n" : ",\n") + text_of(cell);
-        return text;
-    };
+    const std::vector<Kept> cells = all_cells();
+    std::vector<std::string> lines, sources;
+    const std::string own = run_.value("id", "");
+    const bool is_merged =
+        std::ranges::any_of(cells, [&](const Kept& cell) { return cell.run != own; });
+    for (const Kept& cell : cells)
+        lines.push_back(is_merged ? with_key(cell.text, "run", cell.run) : cell.text);
+    for (const Json& run : earlier_.runs)
+        if (is_merged && std::ranges::count(cells, run.value("id", ""), &Kept::run) > 0)
+            sources.push_back(source_of(run.value("id", "") == own ? run_ : run).dump());
     // One cell per line, so that files can be compared by diff.
     std::string text = "{\"format\": \"" + result_format + "\",\n\"run\": " + one_line(run_);
-    text += ",\n\"cells\": [" + lines(cells_, std::mem_fn(&Kept::text)) + "\n]";
+    const auto put = [&](const char* name, const std::vector<std::string>& list) {
+        text += std::string(",\n\"") + name + "\": [";
+        for (const std::string& line : list)
+            text += (text.back() == '[' ? "\n" : ",\n") + line;
+        text += "\n]";
+    };
+    if (is_merged)
+        put("merged_from", sources);
+    put("cells", lines);
     if (!stress_.empty())
-        text += ",\n\"stress\": [" + lines(stress_, std::identity()) + "\n]";
+        put("stress", stress_);
     return text + "}\n";
+}
+
+std::string ResultFile::outcome_of_part() const
+{
+    const std::size_t count = cells_.size() - part_begin_;
+    if (count != 1)
+        return std::to_string(count) + " results";
+    const Kept& cell = cells_.back();
+    return cell.is_measured ? cell.verdict : "failed: " + cell.reason;
 }
 
 int ResultFile::exit_code() const
 {
     if (!cells_.empty() && std::ranges::none_of(cells_, &Kept::is_measured))
-        throw NothingMeasured("nothing was measured: " + cells_.front().reason +
-                              (cells_.size() > 1
-                                   ? " (the first of " + std::to_string(cells_.size()) + " cells)"
-                                   : ""));
-    const auto is_wrong = [](const Kept& cell) { return cell.is_measured && cell.differs; };
+        throw NothingMeasured(
+            "nothing was measured: " + cells_.front().reason +
+            (cells_.size() > 1 ? " (the first of " + counted(cells_.size()) + ")" : ""));
+    const auto is_wrong = [](const Kept& cell) {
+        return cell.is_measured && cell.verdict == verdict_name(Check::Verdict::differs);
+    };
     return std::ranges::any_of(cells_, is_wrong) ? 1 : 0;
 }
 
@@ -185,12 +390,18 @@ bool ResultFile::is_worth_writing() const
     return has_measured_ || (!cells_.empty() && !output_.was_there());
 }
 
+void ResultFile::remove_journal() const
+{
+    std::error_code ignored;
+    if (output_.is_file())
+        std::filesystem::remove(output_.beside(journal_end), ignored);
+}
+
 void ResultFile::write()
 {
     note_memory(run_);
     if (!output_.is_nowhere() && is_worth_writing())
         output_.replace(text());
-    written_at_ = std::chrono::steady_clock::now();
     is_written_ = true;
 }
 

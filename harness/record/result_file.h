@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "harness/base/interrupt.h"
 #include "harness/base/json_keys.h"
+#include "harness/record/journal.h"
 #include "harness/record/output.h"
 #include "harness/record/record.h"
 
 namespace bvhbench {
 
-/// Returns the rules for a result file. A file of the run `own_run` may be replaced without --force.
-OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run = {});
+/// Whether a run takes over what earlier runs of its plan have measured.
+struct Resuming {
+    bool is_asked = false;        ///< --resume
+    bool other_commits = false;   ///< --continue-other-commit
+    bool retries_failed = false;  ///< --retry-failed: parts with a failed cell are measured again
+};
+
+/// Returns the rules for a result file. With `resumes`, a result file may be replaced, because its cells are kept.
+OutputRules result_rules(bool force, std::vector<std::string> inputs, bool resumes = false);
 
 /// What is known of a run only when it ends.
 struct EndOfRun {
@@ -25,36 +34,68 @@ struct EndOfRun {
         {};  ///< mean number of them that wanted to run between samples
 };
 
-/// A result file that grows: it is rewritten atomically as cells finish.
-///
-/// Rewrites are at least half a second apart, so that a run of many short cells does not spend its time on the disk. A process
-/// that is killed without warning loses at most the cells of that time. Devices and pipes are written once, by finish(). An
-/// existing file stays until a cell has been measured.
+/// A result file. While its run goes on, its cells are in a journal beside it (journal.h); the file is written when the run ends, also
+/// by a signal, and the journal is removed. Devices and pipes have no journal and are written once. An existing file stays until a cell
+/// has been measured.
 class ResultFile {
 public:
-    /// If the existing file belongs to the run `goes_on`, continues that run and keeps its facts and cells.
-    ResultFile(Output output, Json run, const std::string& goes_on = {});
+    /// Takes over what a crashed process of the run `goes_on` has left or, if `resuming` is asked for, what earlier runs have left.
+    /// Otherwise throws BadUsage if there is a journal that `force` does not allow to replace. begin() must follow before add().
+    ResultFile(Output output, bool force, const Resuming& resuming, const std::string& goes_on);
+
+    /// The same, begun with the facts of its run.
+    ResultFile(Output output, bool force, Json run, const std::string& goes_on = {});
+
     /// Writes unwritten cells and ignores errors. Call finish() to see them.
     ~ResultFile();
 
-    void add(const Cell& cell);
-    void add(const StressCell& cell);
+    /// True if an earlier process of the same run has begun it.
+    bool has_begun() const { return has_begun_; }
 
-    /// True if the next `count` cells exist already, in a run that is continued; they are then skipped. If any of them is
-    /// missing, drops those that exist, because all of them will be measured again.
+    /// Begins the run with its facts (harness/record/provenance.h), unless an earlier process has.
+    void begin(Json run);
+
+    /// Throws BadUsage if earlier runs have a part that is none of `keys`, or were made on another device than `run`, or, unless it
+    /// was asked for, by another program.
+    void check_earlier(const std::set<std::string>& keys, const Json& run) const;
+
+    /// If part `key` of the plan is complete, takes over its cells and returns the seconds that it took; 0: unknown.
+    std::optional<double> take_part(const std::string& key);
+
+    /// Begins to measure a part. Cells of an earlier process are taken over by pass().
+    void begin_part(const std::string& key);
+    /// Ends it, after `seconds`.
+    void end_part(double seconds);
+
+    /// True if the next `count` cells of the part exist already; they are then skipped. If any of them is missing, drops those that
+    /// exist, because all of them will be measured again.
     bool pass(std::size_t count);
 
-    /// Writes unwritten cells. Any thread may call it; the signal thread does.
+    void add(const Cell& cell);
+    void add(const StressCell& cell);
+    /// Adds the JSON of a cell that cannot be measured.
+    void add_impossible(const Json& cell);
+
+    /// Writes the file. Any thread may call it; the signal thread does.
     void keep();
 
-    /// Returns the smallest sample order above those of all existing cells.
-    int next_order() const { return next_order_; }
+    /// Leaves the journal to another process, which goes on.
+    void leave();
+
+    /// True if cells are kept in a journal, so that another process can go on.
+    bool has_journal() const { return output_.is_file(); }
+
+    /// Returns the smallest sample order above those of all cells of this run.
+    int next_order() const;
 
     /// Records the end of the run and writes the file if it has a cell worth keeping.
     void finish(const EndOfRun& end);
 
     /// Returns the number of cells.
     std::size_t size() const { return cells_.size() + stress_.size(); }
+
+    /// Returns "agrees", "failed: why" or "3 results" of the current part.
+    std::string outcome_of_part() const;
 
     std::string run_id() const { return run_.at("id"); }
 
@@ -69,29 +110,37 @@ public:
     std::string written() const;
 
 private:
-    /// A cell's JSON text, which is made only once, and its outcome.
+    /// A cell's JSON text, which is made only once, the id of its run, and its outcome.
     struct Kept {
-        std::string text;
-        bool is_measured, differs;
-        std::string reason;
+        std::string text, run, verdict, reason;
+        bool is_measured;
     };
 
-    void take_over(const std::string& run_id);
-    void write_if_due();
+    static Kept kept(Json cell, const std::string& run);
+    void take_over(std::span<const Json> cells);
+    void add_line(const char* kind, const std::string& text);
+    std::vector<Kept> all_cells() const;
     bool is_worth_writing() const;
+    void remove_journal() const;
     void write();
 
     Output output_;
-    Json run_;
+    Resuming resuming_;
+    Measured earlier_;        ///< parts that were not begun yet
+    Json run_;                ///< of this process, or the last one
+    bool has_begun_ = false;  ///< whether run_ is of this process, or of one of the same run
+    Journal journal_;
+    std::string part_;            ///< key of the part that is measured
+    std::size_t part_begin_ = 0;  ///< index of its first cell
+    std::vector<Json>
+        there_;  ///< its cells that earlier processes have measured and pass() has not taken over
+    std::size_t taken_ = 0;  ///< number of these that it has
     std::vector<Kept> cells_;
     std::vector<std::string> stress_;
     bool has_measured_ = false;  ///< whether there are cells that may replace an existing file
-    std::size_t passed_ = 0;     ///< number of existing cells skipped by pass()
-    bool goes_on_ = false;       ///< whether existing cells remain beyond passed_
-    int next_order_ = 0;
-    std::chrono::steady_clock::time_point written_at_;
+    bool is_left_ = false;       ///< whether another process goes on
     bool is_written_ = true;
-    std::timed_mutex mutex_;  ///< guards cells_, stress_ and the writing
+    mutable std::timed_mutex mutex_;  ///< guards all cells and the writing
     std::optional<AtSignal> at_signal_;
 };
 

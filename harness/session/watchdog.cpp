@@ -33,10 +33,12 @@ struct Told {
     std::array<char, 64> cell = {};
     std::array<char, 256> run = {};
     std::array<char, 4096> kernels = {};
-    bool ends_itself = false;  ///< whether abort was called by this program's own code
+    bool wants_another = false;  ///< whether the child asks for one that goes on
+    bool ends_itself = false;    ///< whether abort was called by this program's own code
 };
 static_assert(std::atomic<long>::is_always_lock_free);
 
+sigset_t unblocked;    // the signals as they were before supervised()
 Told* told = nullptr;  // nullptr: there is no parent
 double limit_ms = 0;
 
@@ -161,28 +163,36 @@ int supervised(double limit_s, const std::function<int()>& work)
         mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED)
         throw Unavailable("out of host memory: there is no room for another process");
-    sigset_t awaited, before;
+    sigset_t awaited;
     sigemptyset(&awaited);
     sigaddset(&awaited, SIGCHLD);
     for (const int signal : ending_signals())
         sigaddset(&awaited, signal);
     std::signal(SIGCHLD, SIG_DFL);
-    sigprocmask(SIG_BLOCK, &awaited, &before);
-    for (;;) {
+    sigprocmask(SIG_BLOCK, &awaited, &unblocked);
+    for (int held_back = 0;;) {
         told = new (memory) Told;
         const pid_t self = getpid(), child = fork();
         if (child < 0)
             throw Unavailable("out of host memory: there is no room for another process");
         if (child == 0) {
             begin_child(self);
-            sigprocmask(SIG_SETMASK, &before, nullptr);
+            if (goes_on.empty())
+                watchdog::let_signals_through();
             return work();
         }
+        if (held_back != 0)
+            kill(child, held_back);
         const Ending end = end_of(child, awaited);
+        if (told->wants_another && WIFEXITED(end.status) && WEXITSTATUS(end.status) == 0) {
+            goes_on = told->run.data();
+            held_back = end.signal;  // it came when the child was about to end
+            continue;
+        }
         if (WIFEXITED(end.status))
             return WEXITSTATUS(end.status);
         if (!end.is_loss()) {
-            sigprocmask(SIG_SETMASK, &before, nullptr);
+            watchdog::let_signals_through();
             std::signal(WTERMSIG(end.status), SIG_DFL);
             raise(WTERMSIG(end.status));  // ends this process by the same signal
             return 128 + WTERMSIG(end.status);
@@ -204,7 +214,25 @@ std::string given_up(const std::string& cell)
     return found == lost.end() ? std::string() : found->second;
 }
 
-void go_on_with(const std::string& run_id) { tell(&Told::run, run_id); }
+void let_signals_through()
+{
+    if (told != nullptr)
+        sigprocmask(SIG_SETMASK, &unblocked, nullptr);
+}
+
+void go_on_with(const std::string& run_id)
+{
+    tell(&Told::run, run_id);
+    let_signals_through();
+}
+
+bool can_begin_another() { return told != nullptr; }
+
+void begin_another()
+{
+    if (told != nullptr)
+        told->wants_another = true;
+}
 
 void kernels_are_in(const std::string& folder) { tell(&Told::kernels, folder); }
 

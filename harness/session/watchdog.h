@@ -28,8 +28,18 @@ const std::string& run_id();
 /// Returns why an earlier process gave up `cell`; empty if none did.
 std::string given_up(const std::string& cell);
 
-/// Names the run that the next child continues after a crash, from the result file with its finished cells.
+/// Names the run that the next child continues, from the journal with its finished cells. Calls let_signals_through().
 void go_on_with(const std::string& run_id);
+
+/// Lets signals end this process. If it continues a run they are held back before, so that the cells of earlier processes are taken
+/// over and kept first.
+void let_signals_through();
+
+/// True if a process waits that can start another one.
+bool can_begin_another();
+
+/// Asks for another child once this one has ended with code 0. It continues the run that go_on_with() names.
+void begin_another();
 
 /// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it, unless the program's own
 /// code called abort, as a failed assertion does, or the address space is limited, which is then named instead.

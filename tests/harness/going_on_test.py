@@ -128,13 +128,13 @@ def begun(*scenes: str, **keys) -> tuple[str, ...]:
 
 def test_a_signal_ends_what_reads_generates_judges_and_measures_and_keeps_what_is_done():
     pathlib.Path("large.obj").write_bytes(b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + b"f 1 2 3\n" * 3_000_000)
-    simulated = "cloth-dress:20000:60"
+    simulated, journal = "cloth-dress:20000:60", pathlib.Path("signals.json.journal")
     oracle = {"pipelines": [{"builder": "perfect", "collider": "leaf", "narrow": "exact"}]}
     for sent, seconds, scene, keys in ((signal.SIGTERM, 0.2, "large.obj", {}), (signal.SIGINT, 0.2, simulated, {}),
                                        (signal.SIGHUP, 0.2, simulated, {}), (signal.SIGTERM, 1, "hairball:200000", oracle),
                                        (signal.SIGTERM, 1, "hairball:500000", {"quality": True})):
         with at_work(*begun(scene, **keys)) as process:
-            wait_until(lambda: pathlib.Path("signals.json").exists())
+            wait_until(lambda: journal.exists() and '"cell"' in journal.read_text())
             time.sleep(seconds)  # only chooses where the signal strikes
             assert ends_at_once(process, sent) == KEPT
         result = valid("signals.json")

@@ -40,7 +40,7 @@ TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)
         const fs::path path = folder_ / (finishes ? "finished.json" : "early.json");
         std::string text;
         {
-            ResultFile file({path, "--out", {}}, fake_run());
+            ResultFile file({path, "--out", {}}, false, fake_run());
             for (int i = 0; i < 20; ++i)
                 file.add(fake_cell());
             if (finishes)
@@ -56,31 +56,107 @@ TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)
     }
 }
 
+Output resumed(const fs::path& path) { return {path, "--out", result_rules(false, {}, true)}; }
+
+/// Leaves a run of two parts as a process that was killed does: one is complete, and of the other there is one cell, a wrong one.
+void leave_killed(const fs::path& path)
+{
+    ResultFile file({path, "--out", {}}, false, Resuming{}, "");
+    file.begin(fake_run());
+    file.begin_part("0123");
+    file.add(fake_cell());
+    file.end_part(1.5);
+    file.begin_part("4567");
+    Cell wrong = fake_cell();
+    wrong.check.verdict = Check::Verdict::differs;
+    file.add(wrong);
+    file.leave();
+}
+
 TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
 {
     const fs::path path = folder_ / "r.json";
-    Json run = fake_run();
-    {
-        ResultFile file({path, "--out", {}}, run);
-        Cell wrong = fake_cell();
-        wrong.check.verdict = Check::Verdict::differs;
-        file.add(wrong);
-        file.add(fake_cell());
-        file.finish({.compile_ns = 1});
-    }
-    run["started_at"] = "later";
-    ResultFile file({path, "--out", result_rules(false, {}, run["id"])}, run, run["id"]);
+    leave_killed(path);
+    std::ofstream(path.string() + ".journal", std::ios::app) << "{\"part\": \"4567\", \"ce";
+    EXPECT_FALSE(fs::exists(path));
+    ResultFile file({path, "--out", {}}, false, Resuming{}, fake_run()["id"]);
+    EXPECT_TRUE(file.has_begun());
     EXPECT_EQ(file.next_order(), 10);
+    file.begin({});
+    EXPECT_EQ(file.take_part("0123"), 1.5);
+    EXPECT_EQ(file.take_part("4567"), std::nullopt) << "it has not ended";
+    file.begin_part("4567");
     EXPECT_TRUE(file.pass(1));
     EXPECT_FALSE(file.pass(2)) << "one of these is missing, so both are made anew";
-    EXPECT_EQ(file.size(), 1u);
+    EXPECT_EQ(file.size(), 2u);
     EXPECT_EQ(file.exit_code(), 1);
-    EXPECT_EQ(Json::parse(file.text())["run"]["started_at"], "2025-11-30T08:15:42Z");
+    file.finish({});
+    const Json document = Json::parse(text_of(path));
+    EXPECT_EQ(document["run"]["started_at"], "2025-11-30T08:15:42Z");
+    EXPECT_FALSE(document.contains("merged_from"));
+    EXPECT_EQ(document["cells"][1]["part"], "4567");
+    EXPECT_FALSE(fs::exists(path.string() + ".journal"));
+}
+
+TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
+{
+    const fs::path path = folder_ / "r.json";
+    leave_killed(path);
+    EXPECT_NE(refusal_of([&] { ResultFile(resumed(path), false, Resuming{}, ""); }).find("did not end"),
+              std::string::npos);
+    Json run = fake_run();
+    run["id"] = "later";
+    {
+        ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+        EXPECT_FALSE(file.has_begun());
+        EXPECT_EQ(file.next_order(), 0) << "of its own run there are no samples";
+        EXPECT_NE(refusal_of([&] { file.check_earlier({"0123"}, run); }).find("1 of 2 parts"),
+                  std::string::npos);
+        file.check_earlier({"0123", "4567", "89ab"}, run);
+        EXPECT_TRUE(file.take_part("0123"));
+        file.begin(run);
+        file.begin_part("4567");
+        EXPECT_FALSE(file.pass(2));
+        file.add(fake_cell("karras"));
+        file.end_part(1);
+        file.finish({});
+    }
+    const Json document = Json::parse(text_of(path));
+    EXPECT_EQ(document["merged_from"].size(), 2u);
+    EXPECT_EQ(document["cells"].size(), 2u);
+    EXPECT_EQ(document["cells"][0]["run"], fake_run()["id"]);
+    EXPECT_EQ(document["cells"][1]["run"], "later");
+    // A finished file is gone on with too, and nothing is left to do.
+    ResultFile again(resumed(path), false,
+                     Resuming{.is_asked = true}, "");
+    EXPECT_TRUE(again.take_part("0123"));
+    EXPECT_TRUE(again.take_part("4567"));
+    EXPECT_EQ(again.take_part("89ab"), std::nullopt);
+}
+
+TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
+{
+    const fs::path path = folder_ / "r.json";
+    {
+        ResultFile file({path, "--out", {}}, false, Resuming{}, "");
+        file.begin(fake_run());
+        file.begin_part("0123");
+        Cell failed = fake_cell();
+        failed.status = Cell::Status::failed;
+        file.add(failed);
+        file.end_part(1);
+        file.leave();
+    }
+    EXPECT_TRUE(ResultFile(resumed(path), false, Resuming{.is_asked = true}, "").take_part("0123"));
+    const fs::path good = folder_ / "good.json";
+    leave_killed(good);
+    ResultFile file(resumed(good), false, Resuming{.is_asked = true, .retries_failed = true}, "");
+    EXPECT_EQ(file.take_part("0123"), 1.5) << "it was measured";
 }
 
 TEST_F(ResultFileTest, OfCellsThatWereNotMeasuredSaysWhy)
 {
-    ResultFile file({}, fake_run());
+    ResultFile file({}, false, fake_run());
     Cell cell = fake_cell();
     cell.status = Cell::Status::skipped;
     cell.reason = "no such scene";
@@ -94,7 +170,7 @@ TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)
     const fs::path path = folder_ / "r.json";
     Output(path, "--out", {}).replace("older");
     {
-        const ResultFile file({path, "--out", {.force = true}}, fake_run());
+        const ResultFile file({path, "--out", {.force = true}}, true, fake_run());
     }
     EXPECT_EQ(text_of(path), "older");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Tests sweeps: killed and resumed, crashed, sharded, merged and drawn. SWEEP_SEED seeds the times of kills (1)."""
 import collections
-import fcntl
-import hashlib
 import json
 import os
 import pathlib
@@ -31,7 +29,7 @@ def cells_of(path: str) -> collections.Counter:
     """Returns how often each cell is in a result file."""
     document = valid(path)
     known = {source["id"] for source in document.get("merged_from", [])}
-    assert all(cell["run"] in known for cell in document["cells"]) or not known, path
+    assert not known or all(cell["run"] in known for cell in document["cells"]), path
     return collections.Counter(about(cell) for cell in document["cells"])
 
 
@@ -39,14 +37,11 @@ def statuses(path: str) -> collections.Counter:
     return collections.Counter(cell["status"] for cell in valid(path)["cells"])
 
 
-def finished(folder: str) -> dict[str, str]:
-    """Returns the text of each finished cell's file in a sweep's folder."""
-    found = {}
-    for path in sorted(pathlib.Path(folder, "cells").glob("*.json")):
-        text = path.read_text()  # a file is complete whenever it exists
-        if "finished_at" in json.loads(text)["run"]:
-            found[path.name] = text
-    return found
+def finished(folder: str) -> list[str]:
+    """Returns the lines of finished cells in a sweep's journal."""
+    journal = pathlib.Path(folder, "sweep.json.journal")
+    lines = journal.read_text().split("\n")[:-1] if journal.exists() else []
+    return [line for line in lines if '"cell"' in line]
 
 
 def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
@@ -56,12 +51,12 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
     assert len(re.findall(r"^\[[1-7]/8\] .*: agrees, [0-9.]+ s; about \d+ (?:s|min) left$", whole, re.MULTILINE)) == 7, whole
     wanted = cells_of("whole/sweep.json")
     assert len(wanted) == 8 and set(wanted.values()) == {1}, wanted
-    before: dict[str, str] = {}
+    before: list[str] = []
     progress = []
     for kill in range(3):
         with at_work("sweep", *PRODUCT, "--out", "killed") as process:
             # Kills after a new cell has finished, so that there is something to resume. The last kill hits only the sweep itself.
-            wait_until(lambda: finished("killed").keys() - before.keys() or process.poll() is not None)
+            wait_until(lambda: len(finished("killed")) > len(before) or process.poll() is not None)
             time.sleep(draw.uniform(0, 0.8))  # only chooses where the kill strikes
             if kill < 2:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -69,24 +64,22 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
                 process.kill()
         wait_until(lambda: not ours())  # killed processes are gone after a moment
         now = finished("killed")
-        assert all(now[name] == text for name, text in before.items()), "a finished cell was measured again"
+        assert now[:len(before)] == before, "a finished cell was measured again"
         before = now
         progress.append(len(before))
     print(f"  seed {seed}: killed with {progress} of 8 cells done")
-    assert 1 <= progress[0] <= 8, progress
+    assert 1 <= progress[0] < 8, progress
     done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured, 0 skipped, 0 failed")
-    assert done.count("\n[") == 8 - len(before), done
-    now = finished("killed")
-    assert len(now) == 8 and all(now[name] == text for name, text in before.items())
+    assert done.count("\n[") in (8 - len(before), 9 - len(before)), done  # killed between a cell and the end of its part
     assert cells_of("killed/sweep.json") == wanted
-    assert not list(pathlib.Path("killed").rglob("*.tmp*"))
+    kept = {json.dumps(json.loads(line)["cell"]["samples"]) for line in before}
+    assert kept <= {json.dumps(cell["samples"]) for cell in valid("killed/sweep.json")["cells"]}
+    assert sorted(os.listdir("killed")) == ["plan.json", "sweep.json"]
     done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
     assert "[" not in done and cells_of("killed/sweep.json") == wanted, done
-    # The state that a process leaves if it is killed between its last cell and the end of its run.
-    cut = pathlib.Path("killed/cells", min(now))
-    cut.write_text(re.sub(r',"finished_at":"[^"]*"', "", now[cut.name]))
-    done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
-    assert done.count("\n[") == 1 and cells_of("killed/sweep.json") == wanted, done
+    more = (*PRODUCT[:3], "perfect,karras,apetrei", *PRODUCT[4:])  # a finished sweep may get more builders
+    done = expect(0, "sweep", *more, "--out", "killed", says="12 cells: 12 measured")
+    assert done.count("\n[") == 4 and wanted <= cells_of("killed/sweep.json"), done
 
 
 def test_no_process_outlives_a_sweep_that_is_killed():
@@ -108,36 +101,28 @@ def test_an_interrupt_ends_it_and_keeps_what_is_done():
         output, errors = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 130 and errors == KEPT, (process.returncode, errors)
     kept = cells_of("stopped/sweep.json")
-    assert len(kept) == 2 and "written: stopped/sweep.json" in output, (kept, output)
+    assert len(kept) == 2 and "written:" not in output, (kept, output)
     assert "finished_at" not in valid("stopped/sweep.json")["run"]
     assert not ours()
 
 
 def test_a_crash_costs_one_cell():
-    # Without a watchdog, which would catch the crash inside the process. The sweep sees the process end.
     crash = r"\1\n    *(volatile global uint*)(ulong)(get_global_size(0) & 0) = 1;\n"  # writes to an invalid address
     kernels = planted_karras("crashing", r"(kernel void \w+\([^{]*\{)", crash)
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect,karras,median-split", "--samples", "2", "--out", "crash",
-             "--kernels", kernels, "--time-limit", "0")
+             "--kernels", kernels)
     expect(0, *words, says="3 cells: 2 measured, 0 skipped, 1 failed")
     cells = {cell["builder"]["name"]: cell for cell in valid("crash/sweep.json")["cells"]}
     assert cells["karras"]["status"] == "failed", cells["karras"]
-    assert re.match(r"its process crashed \(signal (6|11)\)", cells["karras"]["reason"]), cells["karras"]
+    assert re.match(r"crashed \(signal (6|11)\)", cells["karras"]["reason"]), cells["karras"]
     assert cells["perfect"]["check"]["verdict"] == cells["median-split"]["check"]["verdict"] == "agrees"
     assert "[" not in expect(0, *words, says="1 failed")  # a failed cell is finished
-    good = next(path for path in pathlib.Path("crash/cells").glob("*.json") if '"name":"perfect"' in path.read_text())
+    good = pathlib.Path("crash/sweep.json")
     text = good.read_text()
-    good.write_text(text.replace('"verdict":"agrees"', '"verdict":"differs"'))
+    good.write_text(text.replace('"verdict":"agrees"', '"verdict":"differs"', 1))
     expect(1, *words)  # a wrong answer sets the exit code, however long ago it was found
     good.write_text(text)
-    assert "[3/3] soup:70, karras: failed" in expect(0, *words, "--retry-failed", says="1 failed")
-
-
-def test_a_process_that_takes_too_long_is_ended_and_may_be_tried_again():
-    words = ("sweep", "--scenes", "soup:70", "--builders", "perfect", "--samples", "2", "--out", "late")
-    expect(4, *words, "--cell-limit", "0.01", says="nothing was measured: its process took longer than 0.01")
-    assert statuses("late/sweep.json") == {"failed": 1}
-    expect(0, *words, "--retry-failed", says="1 cell: 1 measured")
+    assert "[2/3] soup:70, karras: failed" in expect(0, *words, "--retry-failed", says="1 failed")
 
 
 def test_a_device_that_goes_away_ends_it_with_what_is_done():
@@ -153,7 +138,7 @@ def test_a_device_that_goes_away_ends_it_with_what_is_done():
                 shutil.rmtree(vendors)
                 break
         _, errors = process.communicate(timeout=PATIENCE_S)
-    assert process.returncode == 3 and re.match(r"bvhbench: the device is gone after \d+ of 12 cells \(.*\n$", errors), errors
+    assert process.returncode == 3 and re.match("bvhbench: there is no OpenCL device: ", errors), errors
     assert statuses("gone/sweep.json").keys() == {"measured"}
     expect(0, *words, says="12 cells: 12 measured")
 
@@ -167,19 +152,15 @@ def test_shards_together_are_the_whole():
     pathlib.Path("part").mkdir()
     for shard, path in zip(("1/3", "2/3", "3/3"), parts):
         out = os.path.dirname(path)
-        with open("part/lock", "w", encoding="utf-8") as lock:
-            fcntl.flock(lock, fcntl.LOCK_SH)  # held as by another shard that is measuring
-            expect(0, *words, "--out", out, "--shard", shard, says="written: ")
-            if shard == "3/3":
-                expect(3, *words, "--out", "part", says="part is being written by another process")
+        expect(0, *words, "--out", out, "--shard", shard, says="written: ")
         assert statuses(path)["measured"] == 2
-    expect(0, "merge", *parts, "-o", "merged.json", says="8 cells of 7 runs")
+    expect(0, "merge", *parts, "-o", "merged.json", says="8 cells of 3 runs")
     assert list(cells_of("merged.json").values()) == [1] * 8
     skipped = [cell for cell in valid("merged.json")["cells"] if cell["status"] == "skipped"]
     assert len(skipped) == 2 and all(cell["reason"].startswith(cannot_be) for cell in skipped), skipped
-    expect(0, "show", "merged.json", says="merged from 7 runs on ")
+    expect(0, "show", "merged.json", says="merged from 3 runs on ")
     # Merges again with one of the parts: each cell appears once, unchanged.
-    expect(0, "merge", "merged.json", parts[0], "-o", "again.json", says="8 cells of 7 runs; in more than one file, the same in each: 4\n")
+    expect(0, "merge", "merged.json", parts[0], "-o", "again.json", says="8 cells of 3 runs; in more than one file, the same in each: 4\n")
     assert cells_of("again.json") == cells_of("merged.json")
 
 
@@ -202,10 +183,9 @@ def test_two_processes_over_two_devices():
     assert "note: processes share a device" in done, done
     commands = [source["command"] for source in valid("jobs/sweep.json")["merged_from"]]
     on = collections.Counter(words[words.index("--device") + 1] for words in commands)
-    assert set(on) == {"0", "1"} and min(on.values()) >= 2, on
+    assert set(on) == {"0", "1"}, on
     assert cells_of("jobs/sweep.json") == cells_of("whole/sweep.json")
-    expect(0, "sweep", "--scenes", "soup:70", "--colliders", "leaf,grid", "--samples", "1", "--out", "shared", "--jobs", "2",
-           says="2 cells: 2 measured")
+    assert "\n[" not in expect(0, *words, "--device", "0", "--device", "1", says="8 cells: 8 measured", POCL_DEVICES="pthread pthread")
     expect(3, *words, "--device", "7", says="no OpenCL device matches '7'")
 
 
@@ -260,9 +240,9 @@ def test_what_cannot_be_is_one_sentence():
             ("'boxes' must be a list", '{"scenes":["soup:70"],"builders":["perfect"],"set":{"boxes":[]}}'),
             ("'scene' is no key of a sweep; there are: sweep, question, scenes", '{"scene":["soup:70"]}'),
             ("must be an object", "[]"), ("not JSON, at line 1, column 2", "{"), ("--out is required", ""),
-            ("whole holds another sweep, 'sweep' of 2 scenes x 2 builders x 2 orders: 8 of the 8 cells that it measures are none of these; "
-             "choose another --out", f"{soup} --out whole"),
-            ("taken/sweep.json is there and no sweep's", f"{soup} --out taken")):
+            ("whole/sweep.json has 8 of 8 parts that are none of this plan, or were measured with other options; choose another --out",
+             f"{soup} --out whole"),
+            ("taken/sweep.json is a result, and its cells do not say of which part of a plan they are", f"{soup} --out taken")):
         if words[:1] in ("{", "["):
             pathlib.Path("bad.json").write_text(words)
             words = "bad.json"
@@ -290,40 +270,22 @@ def test_the_documented_examples_work():
     assert alone.returncode != 0 and "submit it as an array" in alone.stderr, alone
 
 
-def name_of(*parts: str) -> str:
-    return hashlib.sha256(b"".join(part.encode() + b"\0" for part in parts)).hexdigest()[:16] + ".json"
-
-
-def of_another_commit(folder: str) -> str:
-    """Makes a finished sweep look as if an earlier program had measured its first cell, and none of the others were measured."""
-    path = pathlib.Path(folder, "plan.json")
-    plan = json.loads(path.read_text())
-    program, = plan["programs"]
-    other = re.sub(r"^commit \w+", "commit 0123456789", program)
-    plan["programs"] = [other]
-    path.write_text(json.dumps(plan))
-    for number, what in enumerate(plan["units"]):
-        one, two = (pathlib.Path(folder, "cells", name_of(what, name, plan["device"])) for name in (program, other))
-        one.rename(two) if number == 0 else one.unlink()
-    return other
-
-
 def test_another_commit_is_said_and_refused_unless_asked_for():
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect,karras", "--samples", "1", "--out", "older")
     expect(0, *words, says="2 cells: 2 measured")
-    other = of_another_commit("older")
-    expect(2, *words, says=f"older holds 1 cell by {other}, and this program is of commit ")
-    kept, = pathlib.Path("older/cells").iterdir()
-    newest = kept.read_text()
-    kept.write_text(newest.replace('"format": "1.0"', '"format": "1.7"', 1))
-    expect(2, *words, "--continue-other-commit", says=f"holds 1 cell by {other} in format 1.7, and this program writes 1.")
-    kept.write_text(newest)
-    done = expect(0, *words, "--continue-other-commit", says=f"kept: 1 cell by {other}; the others are measured by commit ")
+    path = pathlib.Path("older/sweep.json")
+    document = valid(str(path))
+    document["run"]["program"]["commit"] = "0123456789" * 4
+    del document["cells"][1]
+    path.write_text(json.dumps(document))
+    expect(2, *words, says="older/sweep.json has cells by commit 0123456789")
+    done = expect(0, *words, "--continue-other-commit", says="2 cells: 2 measured")
     assert "[2/2] soup:70, karras" in done and "[1/2]" not in done, done
-    assert cells_of("older/sweep.json").total() == 2
-    plan = pathlib.Path("older/plan.json")
-    plan.write_text(plan.read_text().replace("/pthread", "/another"))
-    expect(2, *words, "--continue-other-commit", says="older holds a sweep on Portable Computing Language/another")
+    result = valid(str(path))
+    assert cells_of(str(path)).total() == 2
+    assert len(result["merged_from"]) == 2 and result["merged_from"][0]["commit"][:10] == "0123456789", result
+    path.write_text(path.read_text().replace('"device":"pthread', '"device":"another'))
+    expect(2, *words, "--continue-other-commit", says="older/sweep.json has cells of another")
 
 
 def test_merge_refuses_what_is_not_alike():

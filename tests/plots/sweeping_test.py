@@ -1,21 +1,13 @@
 #!/usr/bin/env python3
-"""Tests a sweep's product, units, shards and plan, its estimate of the time left, and its handling of processes that end."""
-import collections
+"""Tests a sweep's product, its plan and shards."""
 import json
-import os
-import pathlib
-import signal
-import tempfile
-import types
 import unittest
 
 import base  # noqa: F401  first: it adds plots to sys.path
 
-import command
 from commands import sweep
-from json_files import Refused
 from output import WrongUsage
-from sweeping import folder, planned, processes, product, sizes, units
+from sweeping import planned, product, sizes
 
 BUILDERS, COLLIDERS, GENERATORS = ("perfect", "karras", "oibvh-wide4", "oibvh-multi"), ("leaf", "bvtt", "grid"), ("torus", "soup")
 USUAL = {"order": "morton30", "group_size": 0, "items": 0, "boxes": "f32", "leaves": "mesh"}
@@ -118,7 +110,6 @@ class Product(unittest.TestCase):
         self.assertEqual([one.why_not for one in sweep.cells], ["", "", "", "oibvh-wide4 keeps its boxes in its own way"])
         self.assertEqual(sweep.cells[3].raw["builder"]["options"], {"group_size": 64, "boxes": "u16"})
         self.assertEqual(sweep.cells[3].triangles, 9)
-        self.assertEqual(len(units.units_of(sweep, False, "")), 3)
         with self.assertRaisesRegex(WrongUsage, "no format of boxes is called 'u15'"):
             swept(scenes=["soup:9"], builders=["oibvh-wide4"], set={"boxes": ["u15"]})
 
@@ -160,118 +151,39 @@ class Product(unittest.TestCase):
             sweep.parser().parse_args(["--out", "x", "--sah-inner", "1000001"])
 
 
-class Units(unittest.TestCase):
-    def test_they_are_what_is_measured_and_how(self) -> None:
+class Parts(unittest.TestCase):
+    def test_they_are_cells_or_scenes_with_what_they_are_called(self) -> None:
         keys = {"scenes": ["soup:9", "torus:9"], "builders": ["perfect"], "colliders": ["leaf", "bvtt"]}
-        apart, together = (units.units_of(swept(**keys), is_together, "a") for is_together in (False, True))
-        self.assertEqual([len(unit.cells) for unit in apart], [1, 1, 1, 1])
-        self.assertEqual([unit.label for unit in together], ["soup:9, 2 cells", "torus:9, 2 cells"])
-        self.assertEqual(len({unit.what for unit in apart}), 4)
-        self.assertEqual([unit.what for unit in units.units_of(swept(**keys), False, "a")], [unit.what for unit in apart])
-        self.assertFalse({unit.what for unit in units.units_of(swept(**keys), False, "b")} & {unit.what for unit in apart})
-        self.assertEqual({unit.kind for unit in apart}, {", leaf over perfect", ", bvtt over perfect"})
+        apart, together = (sweep.parts_of(swept(**keys), is_together) for is_together in (False, True))
+        self.assertEqual([len(cells) for cells in apart], [1, 1, 1, 1])
+        plan = sweep.plan_of(swept(**keys), together)
+        self.assertEqual([part["label"] for part in plan["parts"]], ["soup:9, 2 cells", "torus:9, 2 cells"])
+        self.assertEqual([len(part["pipelines"]) for part in plan["parts"]], [2, 2])
 
-    def test_more_builders_and_other_spellings_leave_a_unit_what_it_is(self) -> None:
-        def names(*builders: object) -> set[str]:
-            sweep = swept(scenes=["soup:9"], builders=list(builders), colliders=["leaf", "grid"])
-            return {unit.what for unit in units.units_of(sweep, False, "")}
+    def test_more_builders_and_other_spellings_leave_a_part_what_it_is(self) -> None:
+        def parts(*builders: object) -> list[str]:
+            one = swept(scenes=["soup:9"], builders=list(builders), colliders=["leaf", "grid"])
+            return [json.dumps(part) for part in sweep.plan_of(one, sweep.parts_of(one, False))["parts"]]
 
-        self.assertLess(names("karras"), names("perfect", "karras"))
-        self.assertEqual(names("karras"), names({"name": "karras", "order": "morton30", "group_size": 0}))
+        self.assertLess(set(parts("karras")), set(parts("perfect", "karras")))
+        self.assertEqual(parts("karras"), parts({"name": "karras", "order": "morton30", "group_size": 0}))
 
-    def test_shards_are_all_of_it_each_once_and_balanced(self) -> None:
-        every = units.units_of(swept(scenes=["torus"], sizes="1000:8000000:x2", builders=["perfect", "karras"]), False, "")
-        shards = units.shards_of(every, 4)
-        self.assertEqual((len(shards), set(shards)), (len(every), {1, 2, 3, 4}))
-        load = collections.Counter()
-        for unit, shard in zip(every, shards):
-            load[shard] += unit.triangles
-        self.assertLessEqual(max(load.values()) - min(load.values()), every[-1].triangles)
-        self.assertEqual(units.shards_of(every, 4), shards)
-        self.assertEqual(units.shard_called("2/8"), units.Shard(2, 8))
-        for text in ("4/3", "0/3", "1", "1/3/5", "a/b", "1/0", "", "1/"):
+    def test_shards_are_all_of_it_each_once(self) -> None:
+        every = sweep.parts_of(swept(scenes=["torus"], sizes="1000:8000000:x2", builders=["perfect", "karras"]), False)
+        shares = [sweep.share_of(every, (number, 4)) for number in (1, 2, 3, 4)]
+        self.assertEqual(sorted(id(part) for share in shares for part in share), sorted(map(id, every)))
+        self.assertLessEqual(max(map(len, shares)) - min(map(len, shares)), 1)
+        self.assertEqual((sweep.shard_called("2/8"), sweep.shard_called("")), ((2, 8), (1, 1)))
+        for text in ("4/3", "0/3", "1", "1/3/5", "a/b", "1/0", "1/"):
             with self.subTest(text), self.assertRaises(WrongUsage):
-                units.shard_called(text)
+                sweep.shard_called(text)
 
-
-class TimeLeft(unittest.TestCase):
-    def test_it_goes_by_the_triangles_of_a_kind(self) -> None:
-        left = units.TimeLeft()
-
-        def expect(kind: str, triangles: int, seconds: float) -> None:
-            self.assertAlmostEqual(left.seconds_of(kind, triangles), seconds)
-
-        left.add("a", 100000, 2)
-        expect("a", 100000, 2)
-        expect("b", 300000, 4)  # starting counts as 100000 triangles
-        expect("b", 0, 2)
-        left.add("a", 1100000, 12)
-        expect("a", 2100000, 22)
-        left.add("b", 100000, 20)
-        expect("a", 2100000, 22)
-        left.add("b", 200000, 40)
-        expect("b", 400000, 80)  # the start time is never negative
-        left.add("c", 1000, 3)
-        left.add("c", 2000, 1)
-        expect("c", 50000, 2)  # the time per triangle is never negative
-
-    def test_it_is_told_roughly(self) -> None:
-        for seconds, told in ((0.2, "1 s"), (89, "89 s"), (89.5, "2 min"), (3600, "60 min"), (3600 * 5 + 1200, "5 h 20 min"),
-                              (7200, "2 h"), (86400 * 2 + 3 * 3600, "2 d 3 h")):
-            self.assertEqual(units.rough(seconds), told)
-
-
-class Folder(unittest.TestCase):
-    def test_a_plan_that_is_none_is_refused(self) -> None:
-        plan = {"format": 2, "sweep": "s", "product": "p", "device": "d", "programs": ["a"], "units": ["b"]}
-        with tempfile.TemporaryDirectory() as where:
-            path = pathlib.Path(where, "plan.json")
-            path.write_text(json.dumps(plan))
-            self.assertEqual(folder.plan_in(path), plan)
-            for wrong, says in (({**plan, "format": 1}, "an older program"), ({**plan, "format": 3}, "a newer program"),
-                                ({**plan, "format": "x"}, "no plan"), ([], "no plan"), ({**plan, "units": 5}, "no plan"),
-                                ({**plan, "units": [5]}, "no plan"), ({"format": 2}, "no plan")):
-                path.write_text(json.dumps(wrong))
-                with self.subTest(str(wrong)), self.assertRaisesRegex(Refused, says):
-                    folder.plan_in(path)
-
-
-class Ends(unittest.TestCase):
-    """Tests the reasons that are given for processes without a result."""
-
-    def loss(self, code: int, said: str = "", given_up: str = "") -> processes.Loss:
-        process = types.SimpleNamespace(child=types.SimpleNamespace(returncode=code), given_up=given_up, sentence=lambda: said)
-        return processes.loss_of(process)
-
-    def test_each_has_its_reason(self) -> None:
-        lost = processes.Loss
-        crash = lost("its process crashed (signal 11): near", may_be_the_device=True)
-        self.assertEqual(self.loss(-signal.SIGSEGV, "near"), crash)
-        self.assertEqual(self.loss(2, "no such"), lost("no such", is_skipped=True))
-        self.assertEqual(self.loss(3, "no device"), lost("no device", may_be_the_device=True))
-        self.assertEqual(self.loss(1), lost("its process ended with exit code 1 and left no result"))
-        self.assertTrue(self.loss(128 + signal.SIGTERM, "stopped").was_stopped and self.loss(-signal.SIGINT).was_stopped)
-        self.assertEqual(self.loss(-signal.SIGKILL, "", "it took long"), lost("it took long"))
-
-    def test_only_the_last_of_what_it_says_is_kept(self) -> None:
-        process = processes.Process.__new__(processes.Process)
-        reader, writer = os.pipe()
-        process.errors, process.said = reader, b""
-        with os.fdopen(reader), os.fdopen(writer, "wb", buffering=0) as pipe:
-            for _ in range(3):
-                pipe.write(b"bvhbench: first\n" + b"x" * 40000 + b"\nbvhbench: last\nwords of a driver\n")
-                while process.errors in processes.readable([process.errors]):
-                    self.assertFalse(process.take())
-        self.assertEqual((len(process.said), process.sentence()), (processes.MOST_ERRORS, "last"))
-
-    def test_a_signal_is_remembered_until_the_end(self) -> None:
-        before = signal.getsignal(signal.SIGTERM)
-        stop = processes.Stop()
-        with command.signals_to(stop.remember):
-            self.assertEqual(stop.number, 0)
-            os.kill(os.getpid(), signal.SIGTERM)
-            self.assertEqual(stop.number, signal.SIGTERM)
-        self.assertEqual(signal.getsignal(signal.SIGTERM), before)
+    def test_what_cannot_be_is_in_the_plan_with_its_reason(self) -> None:
+        one = swept(scenes=["soup:9"], builders=["perfect", "oibvh-wide4"], set={"boxes": ["u16"]})
+        plan = sweep.plan_of(one, sweep.parts_of(one, False))
+        self.assertEqual([(cell["status"], cell["reason"]) for cell in plan["impossible"]],
+                         [("skipped", "oibvh-wide4 keeps its boxes in its own way")])
+        self.assertEqual(len(plan["parts"]), 1)
 
 
 if __name__ == "__main__":
