@@ -61,8 +61,7 @@ inline constexpr Parameter leaf_front_ordered =
     usually(1, "front-leaf.ordered", "broad",
             "1: front-leaf orders its entries by node when it writes them; 0: not", {0, 1}, {0, 1});
 inline constexpr Parameter grid_group_size = group_size_parameter(
-    "grid.group_size", "work-items in a group that holds entries of a cell to each other", "broad",
-    64);
+    "grid.group_size", "work-items in a group that compares the entries of a cell", "broad", 64);
 inline constexpr Parameter narrow_group_size = group_size_parameter(
     "narrow.group_size", "work-items in a group of the narrow phase", "narrow", 128);
 

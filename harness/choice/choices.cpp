@@ -132,9 +132,8 @@ constexpr Choice table[] = {
      },
      [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_forced)); }},
     {"update", Of::query, "auto, rebuild or refit",
-     "trees of later frames: auto, as rules and the collider allow; rebuild, in every frame and "
-     "any "
-     "front with them; or refit, all of them",
+     "trees of later frames: auto, rules and the collider decide; rebuild, in every frame, and "
+     "fronts start again; or refit, never rebuild",
      set_word<collider, &ColliderChoice::update, updates>,
      word_of<collider, &ColliderChoice::update, updates>},
     {"trees", Of::query, "object or scene",

@@ -109,8 +109,8 @@ extern const CommandEntry build_command = {
     "build",
     measuring,
     "Build a tree with each of the builders, check it and time its stages",
-    "The tree is held to the builder's oracle, bit for bit, before samples count. Times are of "
-    "stages on the device's clock, from first start to last end. The table has the median, "
+    "The tree is compared with the builder's oracle, bit for bit, before samples count. Times are "
+    "of stages on the device's clock, from first start to last end. The table has the median, "
     "percentiles, and the share of the device's copy rate that a stage reaches.",
     {{"bvhbench build --builder oibvh-multi --scene torus:100000",
       "a generated scene of 100,000 triangles"},

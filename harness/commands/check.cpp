@@ -49,7 +49,7 @@ struct Tally {
     {
         return broken > 0    ? std::to_string(broken) + " broken"
                : refused > 0 ? "refuses " + std::to_string(refused)
-                             : "keeps";
+                             : "met";
     }
 };
 
@@ -85,8 +85,8 @@ public:
         if (all_.refused == all_.checked)
             throw NothingMeasured("nothing was checked: " + all_.refusal);
         std::cout << all_.checked << " checks, "
-                  << (all_.broken == 0 ? "every promise is kept\n"
-                                       : std::to_string(all_.broken) + " with a broken promise\n");
+                  << (all_.broken == 0 ? "no violation\n"
+                                       : std::to_string(all_.broken) + " with a violation\n");
         return all_.broken == 0 ? 0 : 1;
     }
 
@@ -117,7 +117,7 @@ private:
     Session& session_;
     std::vector<BuilderChoice> builders_;
     std::vector<Tally> tallies_;  ///< of each builder over the current input
-    Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"promises", left}, {"", left}}};
+    Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"contract", left}, {"", left}}};
     Tally all_;
 };
 
@@ -187,8 +187,8 @@ private:
 extern const CommandEntry check_command = {
     "check",
     holding,
-    "Hold builders to every promise, without timing",
-    "Every promise of builders/builder.h, over inputs that are hard on builders.",
+    "Check every contract of every builder, without timing",
+    "The contract of builders/builder.h, over inputs that are hard on builders.",
     {{"bvhbench check", "all builders"},
      {"bvhbench check --builder oibvh-single --scene bunny", "one, over a scene"},
      {"bvhbench check --portable --device 1", "what works on a device that nobody has tried"}},

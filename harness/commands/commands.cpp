@@ -40,7 +40,7 @@ std::span<const CommandEntry> commands()
          "List the data sets that scenes are made of, or download some into the data folder"},
         check_command,
         {"smoke", holding,
-         "Run every builder and collider over small scenes and hold all to a baseline; 1 "
+         "Run every builder and collider over small scenes and compare all with a baseline; 1 "
          "if it differs"},
         stress_command,
         facts_command,

@@ -37,7 +37,7 @@ constexpr HelpLine environment[] = {
 constexpr HelpLine files[] = {
     {"*.json",
      "results: every raw sample, with machine, commit and verdicts; docs/result-files.md"},
-    {"results/baseline/", "what `smoke` holds this version to"},
+    {"results/baseline/", "what `smoke` compares this version with"},
     {"results/tuning/", "tuned values of known devices, also in the program"},
 };
 

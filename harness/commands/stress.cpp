@@ -58,7 +58,7 @@ private:
 extern const CommandEntry stress_command = {
     "stress",
     holding,
-    "Hold builders, colliders and libraries to what must hold over scenes that are hard on them",
+    "Check builders, colliders and libraries over scenes that are hard on them",
     "1 if one of ours is wrong, whatever libraries do.",
     {{"bvhbench stress --quick", "minutes"},
      {"bvhbench stress --seed 7 --out stress.json", "all, and a file for plots/stress.py"},

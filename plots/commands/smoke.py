@@ -21,12 +21,12 @@ TOLERANCE = (1, 1e12)
 
 def parser() -> command.Parser:
     words = command.Parser(
-        "smoke", "Run every builder and collider over small scenes and hold all to a baseline; 1 if it differs",
+        "smoke", "Run every builder and collider over small scenes and compare all with a baseline; 1 if it differs",
         "Every builder and collider, under a minute on two cores. 1 and a line for whatever is not as the baseline says.",
         [("bvhbench smoke", "is all as before?"),
          ("bvhbench smoke --update", "a change was meant: the baseline goes along in the commit")], "docs/ci.md")
     words.add_argument("--baseline", default="", help="the baseline; default: results/baseline/smoke-<device kind>.json")
-    words.add_argument("--update", action="store_true", help="write the baseline instead of holding to it")
+    words.add_argument("--update", action="store_true", help="write the baseline instead of comparing with it")
     words.add_argument("--filter", default="", help="only cells whose scene/builder this matches")
     words.add_argument("--out", help="write the result file")
     words.add_argument("--tolerance", type=command.number, default=5,

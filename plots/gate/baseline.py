@@ -86,7 +86,7 @@ def is_baseline(text: bytes) -> bool:
 def read(path: str, device_kind: str) -> list[Kept]:
     """Reads the baseline. Raises Refused if there is none, and WrongUsage if it is for another kind of device."""
     if not os.path.exists(path):
-        raise Refused(f"there is no baseline '{path}' to hold this run to; smoke --update makes it")
+        raise Refused(f"there is no baseline '{path}' to compare this run with; smoke --update makes it")
     baseline = parsed(documents.file_text(path, "the baseline"), path)
     if baseline["device_kind"] != device_kind:
         raise WrongUsage(f"{path} is of a device of kind {baseline['device_kind']}, and this one is of kind {device_kind}")

@@ -86,5 +86,5 @@ def report(changes: Changes, tolerance: float) -> str:
     lines = [f"new: {name}: not in the baseline; `bvhbench smoke --update` adds it\n" for name in changes.new]
     lines += [f"changed: {remark}\n" for remark in changes.remarks] + [f"REGRESSION {told}\n" for told in changes.regressions]
     count = len(changes.regressions)
-    return "".join(lines) + (f"{changes.compared} cells held to the baseline, {changes.timed} times to {tolerance:g} times the "
-                             f"ratio there: {f'{count} regressions' if count else 'as before'}\n")
+    return "".join(lines) + (f"{changes.compared} cells compared with the baseline, {changes.timed} times within {tolerance:g} "
+                             f"times the ratio there: {f'{count} regressions' if count else 'as before'}\n")

@@ -153,5 +153,5 @@ def main(names: dict, begin: Callable[[], None] | None = None) -> int:
             print(f"passed: {name.replace('_', ' ')} ({time.monotonic() - started:.1f} s)", flush=True)
         os.chdir("/")
     if not jsonschema:
-        print("not held to the schema: there is no jsonschema for this Python")
+        print("not checked against the schema: there is no jsonschema for this Python")
     return 0

@@ -23,14 +23,14 @@ def regressions(said: str) -> list[str]:
 
 
 def test_a_baseline_is_made_and_held() -> None:
-    expect(3, "smoke", "--baseline", "base.json", says="there is no baseline 'base.json' to hold this run to")
+    expect(3, "smoke", "--baseline", "base.json", says="there is no baseline 'base.json' to compare this run with")
     smoke(0, "--update", "--out", "smoke.json", says="written: base.json")
     result, base = valid("smoke.json"), json.loads(pathlib.Path("base.json").read_text())
     assert len(base["cells"]) == len(result["cells"]) == len({cell["cell"] for cell in base["cells"]})
     assert {cell["verdict"] for cell in base["cells"]} <= {"agrees", "skipped"}, base
     timed = [cell for cell in base["cells"] if "fastest_ns" in cell]
     assert len(timed) > 54 and not any("reference" in cell["cell"] for cell in timed), len(timed)
-    smoke(0, *SOME, says="6 cells held to the baseline, 5 times")
+    smoke(0, *SOME, says="6 cells compared with the baseline, 5 times")
     kept = SOURCE / "results" / "baseline" / f"smoke-{base['device_kind']}.json"
     here, there = ({cell["cell"]: {key: cell[key] for key in ("verdict", "counters", "hashes")} for cell in cells["cells"]}
                    for cells in (base, json.loads(kept.read_text())))

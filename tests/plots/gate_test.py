@@ -85,7 +85,7 @@ class Changed(unittest.TestCase):
         found = changes.compare(cells, cells, 5, False)
         self.assertEqual((found.regressions, found.remarks, found.compared), ([], [], len(cells)))
         self.assertEqual(found.timed, sum("fastest_ns" in cell for cell in cells))
-        self.assertTrue(changes.report(found, 5).endswith(" times to 5 times the ratio there: as before\n"))
+        self.assertTrue(changes.report(found, 5).endswith(" times within 5 times the ratio there: as before\n"))
 
     def test_counters_and_hashes_are_held_exactly(self) -> None:
         zeros, ones, finer = "0" * 16, "1" * 16, 1.2500000000000002
@@ -117,7 +117,7 @@ class Changed(unittest.TestCase):
         self.assertEqual((found.regressions, found.remarks, found.new), ([], [], ["soup: 1"]))
         self.assertIn("new: soup: 1: not in the baseline; `bvhbench smoke --update` adds it\n", changes.report(found, 5))
 
-    def test_times_are_held_to_the_others_of_their_scene(self) -> None:
+    def test_times_are_compared_with_the_others_of_their_scene(self) -> None:
         before, slower = times(1e6, 2e6, 3e6), times(3e6, 6e6, 9e6)  # another machine
         self.assertEqual(told(before, slower), ([], []))
         slower[0]["fastest_ns"] = 3e6 * 5.26
@@ -137,7 +137,7 @@ class Changed(unittest.TestCase):
             cell["counters"]["nodes_count"] = 8
         text = changes.report(changes.compare(before, now, 1e9, False), 1e9)
         self.assertEqual(text, "REGRESSION soup: 0: nodes_count 8, was 7\nREGRESSION soup: 1: nodes_count 8, was 7\n"
-                               "2 cells held to the baseline, 2 times to 1e+09 times the ratio there: 2 regressions\n")
+                               "2 cells compared with the baseline, 2 times within 1e+09 times the ratio there: 2 regressions\n")
 
 
 if __name__ == "__main__":

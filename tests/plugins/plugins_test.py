@@ -103,7 +103,7 @@ def test_it_stands_in_lists_and_in_other_commands():
         for what in ("builders", "colliders"):
             assert "\nhalves " in expect(0, "list", what, *words, **environment)
     assert "\nhalves-refit " in expect(0, "list", "colliders", "--plugin", GOOD, says="from outside: Halves 1.0, MIT, on host")
-    expect(0, "check", "--builder", "halves", "--plugin", GOOD, says="every promise is kept")
+    expect(0, "check", "--builder", "halves", "--plugin", GOOD, says="no violation")
     expect(0, "sweep", "--plugin", GOOD, "--scenes", "torus:200", "--builders", "halves,perfect", "--samples", "2", "--out", "swept")
     swept = valid("swept/sweep.json")["cells"]
     assert [cell["check"]["verdict"] for cell in swept] == ["agrees", "agrees"] and "outside" in swept[0]
