@@ -75,7 +75,7 @@ Cells::Cells(const CommonOptions& common, Plan& plan)
         benchmark::AddCustomContext(name, value);
 }
 
-/// Returns the cell, settled, if the scene held has it or comes to it; nullptr if not.
+/// Returns the prepared cell if the loaded scene has it or comes to it; nullptr if not.
 Subject* Cells::find(const PlannedCell& planned)
 {
     for (; planned.scene == scene_ && held_ && !held_->cells.empty(); held_->go_on())

@@ -15,22 +15,22 @@
 
 namespace bvhbench {
 
-/// A call of the harness that waits where it would sample. The harness loads a scene, settles its cells and samples them in one
+/// A call of the harness that waits where it would sample. The harness loads a scene, prepares its cells and samples them in one
 /// call, but Google Benchmark calls a function for each repetition of a cell, in any order. Therefore the call has a thread of its
 /// own, which waits while the cells are sampled outside: only one of the two threads works at any time. A session has one at a time.
 class HeldScene {
 public:
     std::span<Subject>
-        cells;            ///< settled together, valid until go_on(); empty if the call has ended
+        cells;            ///< prepared together, valid until go_on(); empty if the call has ended
     std::string failure;  ///< why the call threw; empty if it did not
 
-    /// Begins the call and waits until it has settled cells or ended.
+    /// Begins the call and waits until it has prepared cells or ended.
     HeldScene(Session& session, const std::function<void()>& measure);
     ~HeldScene();  ///< lets the call end
     HeldScene(const HeldScene&) = delete;
     HeldScene& operator=(const HeldScene&) = delete;
 
-    /// Waits until the call has settled its next cells or ended.
+    /// Waits until the call has prepared its next cells or ended.
     void go_on();
 
 private:
@@ -40,7 +40,7 @@ private:
     std::thread thread_;
 };
 
-/// The cells of a plan on one device. A scene is loaded, and those of its cells that are wanted are settled and judged, when the
+/// The cells of a plan on one device. A scene is loaded, and those of its cells that are wanted are prepared and judged, when the
 /// first of them runs. The scene is released when a cell of another scene runs.
 class Cells {
 public:
@@ -59,7 +59,7 @@ private:
     Plan& plan_;
     ResultFile results_;
     Run run_;
-    std::size_t scene_ = 0;  ///< number of the scene held
+    std::size_t scene_ = 0;  ///< number of the loaded scene
     std::unique_ptr<HeldScene> held_;
 };
 

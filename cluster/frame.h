@@ -88,8 +88,8 @@ public:
     /// Returns those pairs that have a triangle of the sample, by scene numbers. Blocks.
     std::vector<Pair> pairs_of(const TriangleSample& sample);
 
-    /// Returns the right pairs, by scene numbers, of the sample's triangles with triangles of this rank: the device holds the box of
-    /// every triangle of the sample, which all ranks tell each other, against all of the rank's. Of two triangles of the sample,
+    /// Returns the right pairs, by scene numbers, of the sample's triangles with triangles of this rank: the device compares the box
+    /// of every triangle of the sample, which all ranks exchange, with all of the rank's. Of two triangles of the sample,
     /// the greater one's rank has the pair. All ranks must. Blocks.
     std::vector<Pair> right_pairs_of(const TriangleSample& sample);
 

@@ -24,8 +24,8 @@ struct CopyRate {
 CopyRate measure_copy_rate(Programs& programs, Queue& queue,
                            std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
-/// Holds the device's clock to the host's while a small buffer is copied, by the kernel of measure_copy_rate. Throws BadClock if they
-/// disagree, Unavailable if there is no room, and what compiling throws.
+/// Compares the device's clock with the host's while a small buffer is copied, by the kernel of measure_copy_rate. Throws BadClock if
+/// they disagree, Unavailable if there is no room, and what compiling throws.
 void check_clocks(Programs& programs, Queue& queue);
 
 /// The measured cost of a launch with almost no work.

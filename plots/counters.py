@@ -4,7 +4,7 @@ from cells import Cell
 # Counters of colliders that vary a little from run to run without any change, with the reason. All other counters that are not
 # times are compared exactly.
 UNSTEADY = {("box_tests_count", "group"): "it takes nodes in the order in which they turn up, which work-items race for"}
-FOUND = ("pairs_count", "contacts_count")  # all that a library promises
+FOUND = ("pairs_count", "contacts_count")  # all that a library guarantees
 LIBRARIES = ("embree", "fcl")  # which builders and colliders wrap; beginnings of their names
 UNITS_OF_TIME = ("_ns", "_us", "_ms", "_s", "_per_s")
 # Counters that are exact on each device but differ between devices: sizes depend on the number of compute units, and queues grow

@@ -52,7 +52,7 @@ std::string scene_name(std::string_view text);
 /// Returns the files and folders that loading the scene `text` may read; some of them need not exist.
 std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& library);
 
-/// Returns the number of triangles that the name `text` promises; 0 if only loading the scene tells.
+/// Returns the number of triangles that the name `text` says; 0 if only loading the scene tells.
 ///
 /// Throws BadUsage if no scene can have this name, as far as that is known without loading it.
 std::size_t triangles_said(std::string_view text);

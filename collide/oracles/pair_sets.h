@@ -27,7 +27,7 @@ public:
     std::vector<Pair> of_device(Programs& programs, const DevicePairs& pairs, std::uint64_t count,
                                 Queue& queue, const Buffer<uint>* names = nullptr) const;
 
-    /// Returns the right ones: holds the box of each triangle of the sample against every box, on all cores of the host.
+    /// Returns the right ones: compares the box of each triangle of the sample with every box, on all cores of the host.
     PairList by_brute_force(std::span<const Aabb> boxes, const WantedPairs& wanted) const;
 
     bool has(uint id) const { return (bits_[id / 32] >> id % 32 & 1u) != 0; }

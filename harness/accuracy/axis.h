@@ -93,11 +93,11 @@ struct AxisMethod {
 AxisMethod fastest_method(const Session& session, std::string name, std::string boxes,
                           std::string narrow);
 
-/// Adds a cell for each method that the filter accepts: settled, sampled interleaved with the others, and judged.
+/// Adds a cell for each method that the filter accepts: prepared, sampled interleaved with the others, and judged.
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
                      std::span<const AxisMethod> methods);
 
-/// Writes the verdict of a comparison with `reference`: `counted` if the method promises no right answer, else by `wrong`, which
+/// Writes the verdict of a comparison with `reference`: `counted` if the method may give wrong answers, else by `wrong`, which
 /// says what is wrong and is empty if nothing is.
 void judge(Cell& cell, std::string_view reference, bool promises, const std::string& wrong);
 
@@ -148,7 +148,7 @@ long double cost_in_long_double(const HostTree& tree);
 /// Judges what a pipeline found after all samples.
 using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
 
-/// Settles a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
+/// Prepares a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
 void settle_pipeline(Session& session, const Input& input, Subject& one,
                      const JudgePipeline& judge);
 

@@ -17,7 +17,7 @@ namespace bvhbench {
 namespace {
 
 static_assert(std::numeric_limits<long double>::digits >= 64,
-              "the reference must be more precise than what is held to it");
+              "the reference must be more precise than what is compared with it");
 
 template <class Real>
 class PlainSum {

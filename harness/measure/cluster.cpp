@@ -18,7 +18,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr std::size_t judged_triangles = 10'000;  ///< triangles that are held against all others
+constexpr std::size_t judged_triangles = 10'000;  ///< triangles that are compared with all others
 
 PairFacts contacts_of_all(const ClusterPart& part, Ranks& ranks)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What runs of ranks have in common: how a rank gets its triangles, its part on its device, and what the first rank is told.
+// What runs of ranks have in common: how a rank gets its triangles, its part on its device, and what the first rank collects.
 #pragma once
 
 #include <algorithm>

@@ -16,8 +16,8 @@
 
 namespace bvhbench {
 
-/// Pairs and contacts that a pipeline found in a frame, in canonical order. Triangles are numbered as in the scene's file. Right
-/// lists are empty unless `wants_lists`.
+/// Pairs and contacts that a pipeline found in a frame, in canonical order. Triangles are numbered as in the scene's file. Lists
+/// that agree with the oracle's are empty unless `wants_lists`.
 struct Found {
     const Scene* scene = nullptr;  ///< valid only during the call
     PairList pairs = {}, contacts = {};
@@ -88,7 +88,7 @@ struct FrameOfPipelines {
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };
 
-/// Runs all pipelines over a frame, one cell each: settles and checks each, samples all interleaved, checks again. Writes the
+/// Runs all pipelines over a frame, one cell each: prepares and checks each, samples all interleaved, checks again. Writes the
 /// last pipeline's result to `found`. A pipeline that fails has the same reason in the cells of all later frames.
 std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
                             const FrameOfPipelines& frame, int& order, Found& found);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the cells of a scene that were measured so far tell about the others in a race: which need not be run, because they cannot
-// win, or are too far behind to win over all frames (docs/races.md).
+// Decides in a race, by the cells of a scene that were measured so far, which others need not be run: those that cannot win, or are
+// too far behind to win over all frames (docs/races.md).
 #pragma once
 
 #include <cstddef>
@@ -30,8 +30,11 @@ public:
         far_behind  ///< it need not be sampled further
     };
 
-    /// Takes the stages of a cell's samples so far, and of the run before them, which may be empty, and by which factor the best so
-    /// far was slower just now than it had been. Cells without a sample, and wrong ones, tell nothing and stay in the race.
+    /// Adds a cell to the comparison and returns its place. Cells without a sample, and wrong ones, are ignored and stay in the race.
+    ///
+    ///     cell      with its samples so far
+    ///     before    stages of the run before them; empty: unknown
+    ///     slower    drift: the time of the best cell now, divided by its earlier time
     Place look(const Cell& cell, const std::vector<StageTime>& before = {}, double slower = 1);
 
     /// Returns why a cell that was not run yet cannot win: the stages that it has in common with cells that were run take longer

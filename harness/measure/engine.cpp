@@ -107,7 +107,7 @@ bool Engine::look(Subject& subject, Contest& contest)
     return true;
 }
 
-/// Runs a subject once and returns its stages. If that fails, refuses the subject and returns nothing.
+/// Runs a cell once and returns its stages. If that fails, refuses the cell and returns nothing.
 std::vector<StageTime> Engine::run_once(Subject& subject)
 {
     const watchdog::Hand hand(subject.number);
@@ -148,7 +148,7 @@ SamplingFacts Engine::facts_of(Stopped stopped, Caches caches) const
     return {.stopped = stopped, .until = rules.until, .race = rules.race, .caches = caches};
 }
 
-/// Runs a subject once between its copies, which are stages on the host.
+/// Runs a cell once between its copies, which are stages on the host.
 std::vector<StageTime> Engine::from_host(Subject& subject)
 {
     Queue& queue = session_.queue();

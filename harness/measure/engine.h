@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The protocol that measures every cell: settle it (compile, run once, judge the result), sample it interleaved with the others,
+// The protocol that measures every cell: prepare it (compile, run once, judge the result), sample it interleaved with the others,
 // judge it again. A step that fails marks the cell as failed or skipped, with the reason.
 #pragma once
 
@@ -46,7 +46,7 @@ std::int64_t host_ns(const std::function<void()>& work);
 
 class Engine {
 public:
-    /// `order` is the number of the next sample; each sample increments it. `note` is told of samples; may be empty.
+    /// `order` is the number of the next sample; each sample increments it. `note` is called during sampling; may be empty.
     Engine(Session& session, SamplingPlan plan, int& order, Note note = {})
         : session_(session), plan_(std::move(plan)), order_(order), note_(std::move(note))
     {}
@@ -55,13 +55,13 @@ public:
     /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
     void settle(Subject& subject, const std::function<void()>& work);
 
-    /// In a race, takes the first sample of a subject that is ready, and runs the best so far once more beside it, because the speed
-    /// of a machine changes. If the sample is far behind, and so is the last run before, returns true: the subject is not sampled
-    /// further. If only the sample is, takes a second one.
+    /// In a race, takes the first sample of a cell that is ready, and runs the best so far once more beside it, because the speed
+    /// of a machine changes. Returns true (drop the cell) if this sample and the run before it are both far behind the best
+    /// (`far_behind`, session/race.h). If only the sample is, takes one more.
     bool look(Subject& subject, Contest& contest);
 
-    /// Samples all subjects that are ready, interleaved, with caches of each kind that the plan names, and judges each again, except
-    /// those that lost a race. Returns a cell for each subject and kind of caches; one that fails once has failed with all.
+    /// Samples all cells that are ready, interleaved, with caches of each kind that the plan names, and judges each again, except
+    /// those that lost a race. Returns a cell for each of them and kind of caches; one that fails once has failed with all.
     std::vector<Cell> sample(std::span<Subject> subjects);
 
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.

@@ -18,13 +18,13 @@
 namespace bvhbench {
 namespace {
 
-/// A list that a pipeline found. If it is right, as its facts tell, it is the oracle's, which need not be listed.
+/// The pairs or contacts that a pipeline found. They are kept only if their hash differs from that of the oracle's list.
 class Listed {
 public:
     Listed(std::vector<Pair> found, const Right& right) : right_(right)
     {
         const PairFacts facts = facts_of(found);
-        // Facts from an earlier run may be wrong. Only the list condemns.
+        // Facts from an earlier run may be wrong, so a difference counts only if the list has it too.
         if (facts != right.facts().set && facts != right.list().facts.set) {
             doubled_ = doubled_pairs(found);
             own_.emplace(std::move(found));
@@ -140,7 +140,7 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
                 facts_on_device(session, pipeline) == right.facts().set) {
                 check.against = pairs_oracle;
                 check.pairs_hash = right.facts().file_hash;
-            } else {  // only a list condemns
+            } else {  // a difference counts only if the list has it too
                 judge_by_list(pipeline, cell, right, frame, found);
             }
         } catch (const Unavailable&) {  // the host cannot list them
@@ -213,7 +213,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
 {
     const Input& input = frame.input;
     FrameOracle oracle(input, frame.file_faces, frame.note);
-    oracle.begin(all.front().choice.collider);  // runs while the first pipeline settles
+    oracle.begin(all.front().choice.collider);  // runs while the first pipeline is prepared
     Engine engine(session, {task.samples, task.warm_up, task.sampling}, order, frame.note);
     std::vector<Subject> subjects(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -25,7 +25,7 @@ public:
     Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
              const Input& input);
 
-    /// Begins a frame whose points differ from those of the last settled frame. `motions` has the motion of each object since
+    /// Begins a frame whose points differ from those of the last prepared frame. `motions` has the motion of each object since
     /// then; it is empty for the first frame and where motions are unknown. Plans the tree updates: what the collider asks for
     /// if it keeps its tree from frame to frame, else what the rules `unchanged` and `rigid` allow (skips.h). A tree that the
     /// rule `near` built holds some triangles only: it is kept if all objects are unchanged, and else rebuilt, never refitted.
@@ -52,7 +52,7 @@ public:
     void upload(const Input& input) const;  ///< copies the frame's points to the device; waits
     void read_back() const;                 ///< copies the answer into new memory of the host
 
-    /// Host times, in ns, of what no stage of a sample on the device holds: `upload_ns` and, if the host has room for the answer,
+    /// Host times, in ns, of what no stage of a sample on the device includes: `upload_ns` and, if the host has room for the answer,
     /// `read_back_ns`; each the median of up to five. Empty if no part of the pipeline runs on the device.
     std::map<std::string, double> transfers(const Input& input) const;
 
@@ -97,7 +97,7 @@ private:
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;  ///< if the rule `near` may apply
     std::optional<Entering> entering_;   ///< if the rule applies; else all triangles enter
-    std::int64_t corner_bytes_ = 0;  ///< bytes that the narrow phase reads for the settled pairs
+    std::int64_t corner_bytes_ = 0;  ///< bytes that the narrow phase reads for the prepared pairs
 };
 
 }  // namespace bvhbench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pipeline counted in its last frame, and the times of what no stage holds.
+// What a pipeline counted in its last frame, and the times of what no stage includes.
 #include <algorithm>
 
 #include "geometry/host_memory.h"

@@ -33,7 +33,7 @@ std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
     return static_cast<std::uint64_t>(std::count_if(listed.begin(), listed.end(), is_missed));
 }
 
-/// Checks what was found against the ground truth of this step: contacts, if there are any, must hold what collides.
+/// Checks what was found against the ground truth of this step: contacts, if there are any, must include what collides.
 void judge_step(const Question& question, const GroundTruth& truth, const Found& found, Cell& cell)
 {
     const bool has_contacts = cell.collider.narrow != "none";

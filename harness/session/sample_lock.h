@@ -3,8 +3,8 @@
 
 namespace bvhbench {
 
-/// While it exists, no other run of the machine takes samples that names the same file in BVHBENCH_SAMPLE_LOCK. Their preparation
-/// and their checks may run beside the samples. The system frees the lock of a process that ends. Does nothing without the variable.
+/// Locks the file that BVHBENCH_SAMPLE_LOCK names. Other runs of the machine that name the same file wait before they take samples;
+/// they may prepare and check cells meanwhile. The system frees the lock of a process that ends. Does nothing without the variable.
 class SampleLock {
 public:
     /// Waits until the lock is free. Throws Unavailable if the file cannot be written.

@@ -26,7 +26,7 @@ struct Subject;
 
 /// The sampler of a program with one of its own (benchmarks/). Empty functions leave it to the engine (measure/engine.h).
 struct OtherSampler {
-    std::function<void(std::span<Subject>)> sample = {};  ///< samples subjects that are ready
+    std::function<void(std::span<Subject>)> sample = {};  ///< samples what is ready
     std::function<bool(const Cell&)> is_wanted = {};      ///< whether a cell is prepared at all
 };
 

@@ -63,7 +63,7 @@ struct SearchResult {
     Tuning best;                          ///< all parameters: as given, defaults, and kept values
     std::vector<Tried> kept;              ///< each parameter once, the last value
     std::vector<Tried> tries;             ///< in the order made
-    std::set<const Parameter*> searched;  ///< parameters that are settled
+    std::set<const Parameter*> searched;  ///< parameters whose search is finished
     double start_ns = 0, best_ns = 0;     ///< medians of whole runs, in the end; 0: not compared
 };
 

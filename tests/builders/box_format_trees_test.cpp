@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Trees whose boxes are in another format keep every promise of a builder: each equals the reference tree with its boxes
+// Trees whose boxes are in another format meet the contract of a builder: each equals the reference tree with its boxes
 // rounded as the host rounds them, bit for bit.
 #include <gtest/gtest.h>
 

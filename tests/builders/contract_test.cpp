@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every builder of the catalog keeps the same promises. New builders are tested as soon as they are listed.
+// Every builder of the catalog meets the same contract. New builders are tested as soon as they are listed.
 #include "harness/judge/check.h"
 
 #include "builders/orders.h"
@@ -10,8 +10,8 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the promise that `choice` breaks over `mesh`, or ""; also checks the name on the builder's card. A refusal is
-/// reported through `refused`; without `refused` it counts as a broken promise.
+/// Returns how `choice` violates the contract over `mesh`, or ""; also checks the name on the builder's card. A refusal is
+/// reported through `refused`; without `refused` it counts as a violation.
 std::string broken_over(const BuilderChoice& choice, const Mesh& mesh, bool* refused = nullptr)
 {
     const Input input = upload(session().device(), session().queue(), mesh.points, mesh.faces);

@@ -54,7 +54,7 @@ protected:
         device.reset();
     }
 
-    /// What the frames of a mesh are held to: pairs by the oracle, contacts by one device; at rank 0 only.
+    /// What the frames of a mesh are compared with: pairs by the oracle, contacts by one device; at rank 0 only.
     struct Right {
         PairList pairs, contacts;
     };
@@ -76,7 +76,7 @@ protected:
         return all;
     }
 
-    /// Distributes the mesh, which every rank makes and the last one deals out, and holds a frame of each pipeline to the oracle.
+    /// Distributes the mesh, which every rank makes and the last one deals out, and compares a frame of each pipeline with the oracle's.
     static void hold_to_oracle(const Mesh& mesh, const std::string& name)
     {
         const Right wanted[] = {right(mesh, false), right(mesh, true)};

@@ -135,7 +135,7 @@ int test()
                 }
         }
     if (!exchange(10000, exchanged) || !exchange(10000, exchanged_in_group)) {
-        std::printf("a word that was exchanged came before what it promised\n");
+        std::printf("a word that was exchanged came before what it announced\n");
         return 1;
     }
     std::printf("no box was touched by two at once\n");

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Removes resources that the program needs while it runs, and checks the promises of docs/reliability.md.
+"""Removes resources that the program needs while it runs, and checks the guarantees of docs/reliability.md.
 
 Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so>
 

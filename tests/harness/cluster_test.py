@@ -21,7 +21,7 @@ STAGES = ("partition", "build", "boxes", "select", "exchange", "self", "halo", "
 
 
 def result(path: str) -> dict:
-    """Returns a result file, after holding it, and all that it holds, to the schemas of their formats."""
+    """Returns a result file, after checking it, and all results in it, against the schemas of their formats."""
     document = json.loads(pathlib.Path(path).read_text())
     for one in [document, *(run["result"] for run in document.get("runs", []) if "result" in run)] if jsonschema else []:
         schema = SCHEMA.parent / f"{one['format'].split('.')[0]}.schema.json"

@@ -126,7 +126,7 @@ TEST(Transfers, AreOfPipelinesThatReadOrWriteTheDevice)
     EXPECT_TRUE(transfers_of({.name = "brute"}).empty());
 }
 
-/// Settles the first frame of a scene, gives the points of the second to the device, the host or neither, and returns the
+/// Prepares the first frame of a scene, gives the points of the second to the device, the host or neither, and returns the
 /// verdict of devices on the pairs of the first.
 Check verdict_on(const char* scene_name, const ColliderChoice& collider, bool device_moves,
                  bool host_moves)

@@ -91,7 +91,7 @@ protected:
         caller.reset();
     }
 
-    /// Runs a frame and holds it to one device.
+    /// Runs a frame and compares it with that of one device.
     static FrameCounts hold_frame(DistributedTree& tree, const LibraryMesh& mesh,
                                   const ClusterOptions& options, const std::string& name)
     {
@@ -118,7 +118,7 @@ protected:
         return counts;
     }
 
-    /// Distributes the mesh in several ways and holds a frame of each to one device.
+    /// Distributes the mesh in several ways and compares a frame of each with that of one device.
     static void hold_mesh(DistributedTree& tree, const LibraryMesh& mesh,
                           const ClusterOptions& options, const std::string& name)
     {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests what `export` writes, read back by pandas and held to a schema of Google Benchmark's format."""
+"""Tests what `export` writes, read back by pandas and checked against a schema of Google Benchmark's format."""
 import io
 import json
 import pathlib
@@ -31,7 +31,7 @@ class Exports(InFolder):
         return self.made("__main__.py", "export", *files, "--format", kind).stdout
 
     def benchmarks(self, *files: object) -> list[Raw]:
-        """Exports for Google Benchmark and returns the entries, after holding the whole to the schema."""
+        """Exports for Google Benchmark and returns the entries, after checking the whole against the schema."""
         made = json.loads(self.exported("google-benchmark", *files))
         jsonschema.Draft202012Validator(SCHEMA).validate(made)
         self.assertEqual(made["context"]["json_schema_version"], 1)

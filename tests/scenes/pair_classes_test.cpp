@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The promises of pair classes hold exactly: checked in whole numbers, because all of these coordinates are whole.
+// Pairs of a class are exactly what the class says: checked in whole numbers, because all of these coordinates are whole.
 #include "scenes/generate/pair_classes.h"
 
 #include <gtest/gtest.h>

@@ -59,7 +59,7 @@ struct Strip {
     }
 };
 
-/// Holds all parts of a scene to the whole.
+/// Compares all parts of a scene with the whole.
 void hold_parts(const std::string& name, uint parts)
 {
     const Scene whole = load_scene(name, {});
