@@ -29,7 +29,7 @@ std::vector<SimulatedRank> simulated(std::span<const Share> shares, uint boxes, 
                                      Queue& queue, Builder& builder);
 
 /// Returns the time that the model of docs/cluster.md gives to what ranks tell each other in a frame: waits of the host, the boxes
-/// of all others, and the halo of the rank that sends the most. plots/ranks.py draws the same model.
+/// of all others, and the halo of the rank that sends the most. plots/figures/rank_curves.py draws the same model.
 std::int64_t exchange_ns(std::span<const SimulatedRank> ranks, uint boxes);
 
 }  // namespace bvhbench

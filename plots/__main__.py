@@ -1,18 +1,20 @@
-#!/usr/bin/env python3
 """Runs the commands that read result files; the program starts it for them.
 
     python3 plots COMMAND ARGUMENTS...
 """
 import importlib
 import os
+import pathlib
 import sys
 
-import command
+sys.path[0] = str(pathlib.Path(__file__).resolve().parents[1])  # where the package is, in place of the package's folder
+
+from plots.program import command  # noqa: E402
 
 
 def main(words: list[str]) -> int:
     try:
-        return importlib.import_module(f"commands.{words[0]}").main(words[1:])
+        return importlib.import_module(f"plots.commands.{words[0]}").main(words[1:])
     except ModuleNotFoundError:
         if not sys.flags.ignore_environment:
             raise

@@ -7,6 +7,7 @@ Usage: sources_test.py rooms <source root> <rooms.json>
        sources_test.py docs <source root>
        sources_test.py format <source root> <clang-format>
        sources_test.py budget <source root>
+       sources_test.py floors <source root>
 
 rooms: every #include follows the rules written by cmake/Rooms.cmake.
 exactness: nothing permits a compiler to fuse, reorder or approximate arithmetic, in kernels or on the host.
@@ -16,10 +17,13 @@ links to other documents; GoogleTest names in backticks, as in `Suite.Test`. In 
 entry in docs/references.md.
 format: every source and kernel is formatted by clang-format.
 budget: no room has more lines of code than its line in CONTRIBUTING.md allows, by more than 3 %.
+floors: a module of plots imports its own floor and lower ones (FLOORS in plots/__init__.py), and no floor has too many modules.
 """
+import ast
 import json
 import pathlib
 import re
+import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -47,6 +51,7 @@ PATH = re.compile(rf"^(?:{'|'.join((*ALL, 'cmake', 'docs', 'plots', 'results'))}
 TEST_NAME = re.compile(r"^[A-Z]\w+\.[A-Z]\w+$")
 LINK = re.compile(r"\]\(([^)#:]+)(?:#[^)]*)?\)")
 CITED = re.compile(r"\[([A-Z][A-Za-z]+(?:19|20)\d\d)[\],]")
+MOST_MODULES = 25  # of a floor of plots
 TEST = re.compile(r"^(?:TEST|TEST_F|TEST_P)\((\w+),\s*(\w+)\)", re.MULTILINE)
 
 
@@ -189,7 +194,28 @@ def budget() -> Iterator[str]:
             yield f"{room}: {found:,} lines of code, and CONTRIBUTING.md allows {allowed[room]:,}"
 
 
+def imported_floors(path: pathlib.Path) -> Iterator[str]:
+    """Yields the floor of plots that each relative import of a module leads to; "." for the package itself."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level > 1:
+            yield node.module.split(".")[0] if node.module else "."
+        elif isinstance(node, (ast.Import, ast.ImportFrom)) and not getattr(node, "level", 0):
+            dotted = [alias.name for alias in node.names] if isinstance(node, ast.Import) else [node.module]
+            yield from (name.split(".")[1] for name in dotted if name.startswith("plots."))
+
+
+def floors() -> Iterator[str]:
+    order = list(runpy.run_path(str(ROOT / "plots" / "__init__.py"))["FLOORS"])
+    for path in files("plots", kinds=(".py",)):
+        of = path.relative_to(ROOT)
+        if len(of.parts) > 2:
+            yield from sorted({f"{of}: {above}" for to in imported_floors(path) if (above := goes_up(order, floor(of), to))})
+    for name in order:
+        if (count := len(list((ROOT / "plots" / name).glob("*.py")))) > MOST_MODULES:
+            yield f"plots/{name}: {count} modules, more than {MOST_MODULES}"
+
+
 if __name__ == "__main__":
-    findings = list({"rooms": rooms, "exactness": exactness, "docs": docs, "format": format, "budget": budget}[CHECK]())
+    findings = list({"rooms": rooms, "exactness": exactness, "docs": docs, "format": format, "budget": budget, "floors": floors}[CHECK]())
     print("\n".join(findings) or f"{CHECK}: nothing found")
     sys.exit(bool(findings))

@@ -64,7 +64,7 @@ public:
         print_tables(results.text(), common);
         std::cout << results.written();
         const int code = results.exit_code();
-        std::cout << draw("accuracy.py", file, folder, common.force) << '\n';
+        std::cout << draw("figures", file, folder, common.force) << '\n';
         return code;
     }
 

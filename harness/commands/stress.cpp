@@ -61,7 +61,7 @@ extern const CommandEntry stress_command = {
     "Check builders, colliders and libraries over scenes that are hard on them",
     "1 if one of ours is wrong, whatever libraries do.",
     {{"bvhbench stress --quick", "minutes"},
-     {"bvhbench stress --seed 7 --out stress.json", "all, and a file for plots/stress.py"},
+     {"bvhbench stress --seed 7 --out stress.json", "all, and a file for `bvhbench plot`"},
      {"bvhbench stress --filter ^scale/.*/front", "cells whose family/scene/system this matches"}},
     "docs/stress.md",
     make_command<Stress>};

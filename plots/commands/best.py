@@ -5,19 +5,14 @@ import pathlib
 import tempfile
 from typing import Any
 
-import answer
-import child
-import command
-import documents
-import merging
-import output
-import ranking
-import results
-from console import best as page
-from output import WrongUsage
-from racing.plan import MOST, NAME, Plan
-from reserved import is_replaced, reserved
-from sweeping.planned import Json
+from ..console import best_table as page
+from ..files import documents, output
+from ..files.output import WrongUsage
+from ..files.reserved import is_replaced, reserved
+from ..program import child, command
+from ..racing.plan import MOST, NAME, Plan
+from ..read import merging, ranking, ranking_text, results
+from ..sweeping.planned import Json
 
 
 def parser() -> command.Parser:
@@ -108,15 +103,15 @@ def repeated(plan: Plan, found: ranking.Ranking) -> list[str]:
     for scene in plan.scenes:
         options = plan.query | {key: value for key, value in plan.scene_of(scene).items() if key != "scene"}
         words = [word for key, value in options.items() for word in ("--" + key.replace("_", "-"), value)]
-        lines.append(answer.repeated(found.rows[0], scene["scene"], [*words, *plan.words]))
+        lines.append(ranking_text.repeated(found.rows[0], scene["scene"], [*words, *plan.words]))
     return lines
 
 
 def drawn(run: results.Run, found: ranking.Ranking, picture: pathlib.Path, force: bool) -> str:
     """Draws the figure. Returns its name for the message, or why there is none; the measurement is of use without."""
     try:
-        import best_bars
-        import style
+        from ..draw import style
+        from ..figures import best_bars
 
         style.set_up()
         paths = style.save(best_bars.draw(run, found), picture.parent, picture.stem, [pathlib.Path(run.path)], force)

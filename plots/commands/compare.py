@@ -1,13 +1,12 @@
 """bvhbench compare: compares a result file with an earlier one."""
 import pathlib
 
-import clusters
-import command
-import documents
-import output
-from cells import Cell
-from comparing import axes, cluster, comparison, report, sides
-from comparing.refusals import Rules, require_comparable
+from ..comparing import axes, comparison, comparison_text, ranks, sides
+from ..comparing.refusals import Rules, require_comparable
+from ..files import documents, output
+from ..program import command
+from ..read import rank_files
+from ..read.cells import Cell
 
 
 def parser() -> command.Parser:
@@ -52,13 +51,13 @@ def main(words: list[str]) -> int:
     half = len(files) // 2
     rules = Rules(threshold=arguments.threshold, allow_missing=arguments.allow_missing, allow_dirty=arguments.allow_dirty,
                   other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks, builders=arguments.builders)
-    if any(map(clusters.kind_of, files)):
+    if any(map(rank_files.kind_of, files)):
         for name in files:
-            if not clusters.kind_of(name):
+            if not rank_files.kind_of(name):
                 raise output.WrongUsage(f"{name} is no file of `bvhbench cluster` or `scale`, and the other is")
         if half > 1:
             raise output.WrongUsage("files of `bvhbench cluster` and `scale` are compared one with one")
-        text, regressions = cluster.compare(*((name, clusters.read(name)) for name in files), rules, arguments.all)
+        text, regressions = ranks.compare(*((name, rank_files.read(name)) for name in files), rules, arguments.all)
         print(text, end="")
         return 1 if regressions else 0
     parts = [documents.read(str(name)) for name in files]
@@ -71,5 +70,5 @@ def main(words: list[str]) -> int:
     elif not rules.allow_missing:
         axes.require_shared(names, *([Cell(raw) for raw in document["cells"]] for document in (first, second)))
     compared = comparison.compare(first, second, rules)
-    print(report.text(compared, arguments.all), end="")
+    print(comparison_text.text(compared, arguments.all), end="")
     return 1 if compared.regressions else 0

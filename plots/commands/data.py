@@ -7,13 +7,12 @@ import pathlib
 import textwrap
 import types
 
-import command
-import documents
-import output
-import terminal
-from json_files import Refused
-from output import WrongUsage
-from tables import Table, size
+from ..files import documents, output
+from ..files.json_files import Refused
+from ..files.output import WrongUsage
+from ..program import command
+from ..words import terminal
+from ..words.tables import Table, size
 
 SCENES = documents.FOLDER.parent / "scenes"
 

@@ -1,13 +1,12 @@
 """bvhbench export: writes result files in formats of other programs."""
 import argparse
 
-import command
-import given
-import output
-import results
-from exporting import action, csv_table, google_benchmark
-from json_files import Refused
-from reserved import reserved
+from ..exporting import action, csv_table, google_benchmark
+from ..files import output
+from ..files.json_files import Refused
+from ..files.reserved import reserved
+from ..program import command
+from ..read import input_files, results
 
 FORMATS = {"google-benchmark": google_benchmark.text, "csv": csv_table.text, "customSmallerIsBetter": action.text}
 NAMES = "google-benchmark, csv or customSmallerIsBetter"
@@ -37,7 +36,7 @@ def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
     out = arguments.out or "/dev/stdout"
     with reserved(out, "--out", arguments.force, arguments.files):
-        runs = [run for run in map(loaded, given.files_of(arguments.files)) if run]
+        runs = [run for run in map(loaded, input_files.files_of(arguments.files)) if run]
         if not runs:
             raise Refused("there are no cells to export in these files")
         if output.write(out, FORMATS[arguments.format](runs).encode("utf-8", "replace")):
@@ -45,7 +44,7 @@ def main(words: list[str]) -> int:
     return 0
 
 
-def loaded(file: given.Given) -> results.Run | None:
+def loaded(file: input_files.Given) -> results.Run | None:
     """Reads a file. Returns None, with a note, for a file of a folder without cells. Raises Refused."""
     run = results.everything(file.path)
     for hook, value in run.facts.get("test_hooks", {}).items():

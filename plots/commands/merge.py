@@ -1,10 +1,9 @@
 """bvhbench merge: merges several result files into one."""
-import command
-import documents
-import output
-from merging import merge
-from reserved import reserved
-from tables import counted
+from ..files import documents, output
+from ..files.reserved import reserved
+from ..program import command
+from ..read.merging import merge
+from ..words.tables import counted
 
 
 def parser() -> command.Parser:

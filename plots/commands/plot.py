@@ -2,9 +2,8 @@
 import contextlib
 import pathlib
 
-import command
-import json_files
-import output
+from ..files import json_files, output
+from ..program import command
 
 
 def parser() -> command.Parser:
@@ -20,13 +19,13 @@ def parser() -> command.Parser:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    import all  # imported here, so that help does not need matplotlib
+    from ..figures import catalog  # imported here, so that help does not need matplotlib
 
     folder, files = pathlib.Path(arguments.out), [pathlib.Path(file) for file in arguments.files]
     is_new = not folder.exists()
     output.make_folder(folder)
     output.check_pictures(folder, files, arguments.force)
-    if refusals := all.draw_all(files, folder, arguments.force):
+    if refusals := catalog.draw_all(files, folder, arguments.force):
         if is_new:  # nothing was drawn: nothing is left
             with contextlib.suppress(OSError):
                 folder.rmdir()

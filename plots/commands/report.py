@@ -3,13 +3,12 @@ import argparse
 import pathlib
 import tempfile
 
-import child
-import command
-import given
-import output
-import report
-from json_files import Refused
-from reserved import reserved
+from ..files import output
+from ..files.json_files import Refused
+from ..files.reserved import reserved
+from ..page import report
+from ..program import child, command
+from ..read import input_files
 
 BUILDER = ("order", "leaves", "boxes")  # options of the builder
 
@@ -33,35 +32,35 @@ def parser() -> command.Parser:
     words.add_argument("--leaves", help="mesh or sorted: where leaf boxes are kept; default: mesh, and sorted for boxes other than f32")
     words.add_argument("--boxes", help="what nodes keep their boxes in: a name of `list formats`")
     words.add_argument("--collider", default="leaf", help="what finds the pairs: a name of `list colliders`")
+    words.add_argument("--view", action="append", default=[], type=pathlib.Path, help=argparse.SUPPRESS)  # a scene's file, for tests
     return words
 
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if not arguments.files and not arguments.scene:
+    if not (arguments.files or arguments.scene or arguments.view):
         raise output.WrongUsage("name result files, or a --scene to show")
     options = {key: getattr(arguments, key) for key in BUILDER if getattr(arguments, key) is not None}
-    files = [pathlib.Path(file.path) for file in given.files_of(arguments.files)]
-    inputs = [*map(str, files), *scene_files(arguments, options)]
+    files = [pathlib.Path(file.path) for file in input_files.files_of(arguments.files)]
+    inputs = [*map(str, files + arguments.view), *(scene_files(arguments, options) if arguments.scene else [])]
     with reserved(arguments.out, "--out", arguments.force, inputs, output.is_page), \
             tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
         views = [view(arguments, scene, options, pathlib.Path(folder, str(number)))
                  for number, scene in enumerate(arguments.scene)]
-        return report.write(files, views, pathlib.Path(arguments.out), True, arguments.brief)
+        return report.write(files, arguments.view + views, pathlib.Path(arguments.out), arguments.brief)
 
 
 def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[str]:
     """Returns the files that the scenes are read from. Raises WrongUsage for wrong arguments, before any file is opened."""
-    scenes = arguments.scene or ["soup:1"]
     experiments = [{"experiment": "view", "scenes": [scene],
                     "pipelines": [{"builder": {"name": arguments.builder, **options}, "collider": arguments.collider,
-                                   "adjacent": "drop", "narrow": "exact"}]} for scene in scenes]
+                                   "adjacent": "drop", "narrow": "exact"}]} for scene in arguments.scene]
     files: list[str] = []
     for answer in child.settled(experiments, command.common_words(arguments)):
         if "error" in answer:
             raise output.WrongUsage(answer["error"])
         files += answer.get("files", [])
-    return files if arguments.scene else []
+    return files
 
 
 def view(arguments: argparse.Namespace, scene: str, options: dict[str, str], file: pathlib.Path) -> pathlib.Path:

@@ -7,15 +7,14 @@ import subprocess
 import sys
 from collections.abc import Callable
 
-import child
-import command
-import output
-import results
-from console import frames, paper, run as run_page, tree_costs
-from json_files import Refused
-from reserved import reserved
+from ..console import frame_table, paper, run as run_page, tree_costs
+from ..files import output
+from ..files.json_files import Refused
+from ..files.reserved import reserved
+from ..program import child, command
+from ..read import results
 
-HERE = pathlib.Path(__file__).resolve().parent.parent
+FIGURES = pathlib.Path(__file__).resolve().parents[1] / "figures"
 PAGE_SCENE = ("--scene", "cloth-funnel:2000:4", "--frame", "3")  # small, and with contacts
 CANNOT, NOTHING = 3, 4  # exit codes: something required is missing; nothing was measured
 
@@ -23,10 +22,10 @@ CANNOT, NOTHING = 3, 4  # exit codes: something required is missing; nothing was
 SHOWN: dict[str, tuple[str, Callable[[results.Run], str]]] = {
     "table1": ("table1", paper.table1),
     "fig8": ("fig8", paper.fig8),
-    "table2": ("table2", frames.table2),
-    "fig9": ("table2", frames.table2),
-    "fig10": ("table2", frames.table2),
-    "table3": ("table3", frames.table3),
+    "table2": ("table2", frame_table.table2),
+    "fig9": ("table2", frame_table.table2),
+    "fig10": ("table2", frame_table.table2),
+    "table3": ("table3", frame_table.table3),
     "table4": ("table4", tree_costs.table4),
     "fig13": ("fig13", tree_costs.fig13),
 }
@@ -95,8 +94,7 @@ def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> in
 
 def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
     """Draws a figure and returns a message about the outcome. A failed drawing does not invalidate the measurement."""
-    script = HERE / f"{name}.py"
-    words = [sys.executable, str(script), file, "--out", arguments.out, *["--force"] * arguments.force]
+    words = [sys.executable, str(FIGURES), file, "--only", name, "--out", arguments.out, *["--force"] * arguments.force]
     with child.handed_on() as children:
         drawing = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, errors="surrogateescape")
         children(drawing)
@@ -111,15 +109,15 @@ def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
         return f"drawn into {arguments.out}"
     end = f"ended with {code}" if code > 0 else "could not be run to its end"
     named = module.partition("'")[0]
-    why = f"{sys.executable} has no module {named}" if is_missing else f"{sys.executable} {script} {end}"
-    return (f"nothing was drawn, {why}; where Python and matplotlib are, draw it with: python3 plots/{name}.py {file} "
-            f"--out {arguments.out}")
+    why = f"{sys.executable} has no module {named}" if is_missing else f"{sys.executable} {FIGURES} {end}"
+    return (f"nothing was drawn, {why}; where Python and matplotlib are, draw it with: python3 plots/figures {file} "
+            f"--only {name} --out {arguments.out}")
 
 
 def page(arguments: argparse.Namespace, files: list[str], out: str) -> int:
     """Makes the page of all results. On failure only prints how to make it elsewhere, because the results exist."""
     try:
-        from commands import report  # needs matplotlib
+        from . import report  # needs matplotlib
 
         return report.main([*files, "-o", out, *PAGE_SCENE, *command.common_words(arguments)])
     except ModuleNotFoundError as error:

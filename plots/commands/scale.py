@@ -12,11 +12,9 @@ import tempfile
 from dataclasses import dataclass
 from typing import Any
 
-import child
-import command
-import output
-import reserved
-from json_files import Refused, parsed
+from ..files import output, reserved
+from ..files.json_files import Refused, parsed
+from ..program import child, command
 
 FORMAT = "cluster-runs-1.1"
 RANKS = (1, 2, 4, 8)

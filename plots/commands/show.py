@@ -1,11 +1,8 @@
 """bvhbench show: prints a result file as tables."""
-import answer
-import clusters
-import command
-import given
-import results
-from console import accuracy, best, builders, cell, cells, cluster, frames, skips, stress, swept, trees
-from console import run as run_page
+from ..console import (accuracy_table, best_table, builder_table, cell, cells, frame_table, rank_table, run as run_page, skip_table,
+                       stress_table, swept_table, trees)
+from ..program import command
+from ..read import input_files, rank_files, ranking_text, results
 
 
 def parser() -> command.Parser:
@@ -17,7 +14,7 @@ def parser() -> command.Parser:
 
 
 def main(words: list[str]) -> int:
-    files = given.files_of(parser().parse_args(words).files)
+    files = input_files.files_of(parser().parse_args(words).files)
     for number, file in enumerate(files):
         heading = f"{chr(10) * (number > 0)}== {file.path}\n" if len(files) > 1 else ""
         print(heading, text(str(file.path)), sep="", end="")
@@ -25,28 +22,28 @@ def main(words: list[str]) -> int:
 
 
 def text(file: str) -> str:
-    if clusters.kind_of(file):
-        return cluster.text(clusters.read(file))
+    if rank_files.kind_of(file):
+        return rank_table.text(rank_files.read(file))
     run = results.everything(file)
     try:
-        return answer.of_cells(run.all_cells) + answer.warning_lines(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
+        return ranking_text.of_cells(run.all_cells) + ranking_text.warning_lines(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
     except KeyError as missing:
         raise results.Refused(f"{file}: a cell has no {missing}") from missing
 
 
 def pages(run: results.Run) -> str:
     """Returns the tables for the file's contents: axes of accuracy, stress, frames of `collide`, one cell, or an experiment."""
-    if axes := accuracy.text(run):
+    if axes := accuracy_table.text(run):
         return axes
     if run.stress:
-        return stress.text(run)
+        return stress_table.text(run)
     if run.all_cells and all(one.experiment == "collide" for one in run.all_cells):
-        whole = cell.text(run.all_cells[0], run) if len(run.all_cells) == 1 else frames.each(run)
-        return whole + swept.text(run) + skips.text(run)
+        whole = cell.text(run.all_cells[0], run) if len(run.all_cells) == 1 else frame_table.each(run)
+        return whole + swept_table.text(run) + skip_table.text(run)
     if len(run.all_cells) == 1:
         return cell.text(run.all_cells[0], run)
-    if all(one.experiment == skips.EXPERIMENT for one in run.all_cells):
-        return cells.text(run) + skips.of_scenes(run)
-    pages_of = (cells.text, builders.text, frames.text, swept.text, trees.refits, trees.quality, trees.roofline, trees.yardstick, skips.of_scenes,
-                best.families_of)
+    if all(one.experiment == skip_table.EXPERIMENT for one in run.all_cells):
+        return cells.text(run) + skip_table.of_scenes(run)
+    pages_of = (cells.text, builder_table.text, frame_table.text, swept_table.text, trees.refits, trees.quality, trees.roofline, trees.yardstick, skip_table.of_scenes,
+                best_table.families_of)
     return "".join(page(run) for page in pages_of)

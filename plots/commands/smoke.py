@@ -5,16 +5,14 @@ import os
 import pathlib
 import tempfile
 
-import child
-import command
-import output
-import results
-from console import cells as cells_page
-from console import run as run_page
-from gate import baseline, changes
-from json_files import Refused
-from output import WrongUsage
-from reserved import is_input, is_replaced, reserved
+from ..comparing import baseline, baseline_changes
+from ..console import cells as cells_page, run as run_page
+from ..files import output
+from ..files.json_files import Refused
+from ..files.output import WrongUsage
+from ..files.reserved import is_input, is_replaced, reserved
+from ..program import child, command
+from ..read import results
 
 TOLERANCE = (1, 1e12)
 
@@ -60,8 +58,8 @@ def main(words: list[str]) -> int:
             return update(arguments, path, kind)
     before = baseline.read(path, kind)  # fails before the minute of measuring
     run, code = measured(arguments, path)
-    found = changes.compare(before, baseline.of_run(run), arguments.tolerance, bool(arguments.filter))
-    print(changes.report(found, arguments.tolerance), end="")
+    found = baseline_changes.compare(before, baseline.of_run(run), arguments.tolerance, bool(arguments.filter))
+    print(baseline_changes.report(found, arguments.tolerance), end="")
     return 1 if found.regressions else code
 
 

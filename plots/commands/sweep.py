@@ -5,20 +5,16 @@ import pathlib
 import re
 from typing import Any
 
-import answer
-import child
-import command
-import documents
-import merging
-import output
-import results
-import tables
-from cells import Cell, grouped
-from json_files import value_of
-from output import WrongUsage
-from reserved import reserved
-from sweeping.planned import Json, Planned, Sweep
-from sweeping.product import swept_of
+from ..files import documents, output
+from ..files.json_files import value_of
+from ..files.output import WrongUsage
+from ..files.reserved import reserved
+from ..program import child, command
+from ..read import merging, ranking_text, results
+from ..read.cells import Cell, grouped
+from ..sweeping.planned import Json, Planned, Sweep
+from ..sweeping.product import swept_of
+from ..words import tables
 
 LISTS = ("scenes", "builders", "orders", "colliders")  # options that take comma-separated values
 Shard = tuple[int, int]  # the i-th of n
@@ -210,5 +206,5 @@ def summed_up(file: pathlib.Path, code: int) -> int:
         cells = [Cell(raw) for raw in documents.read(str(file))["cells"]]
         count = {status: sum(cell.status == status for cell in cells) for status in ("measured", "skipped", "failed")}
         print(f"{tables.counted(len(cells), 'cell')}: " + ", ".join(f"{number:,} {status}" for status, number in count.items()))
-        print(f"{answer.of_cells(cells)}{answer.warning_lines(cells)}written: {file}", flush=True)
+        print(f"{ranking_text.of_cells(cells)}{ranking_text.warning_lines(cells)}written: {file}", flush=True)
     return code

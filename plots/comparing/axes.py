@@ -3,8 +3,8 @@ import copy
 import pathlib
 from typing import Any
 
-from cells import Cell, parts
-from output import WrongUsage
+from ..files.output import WrongUsage
+from ..read.cells import Cell, parts
 
 Document = dict[str, Any]
 MOST_TOLD, MOST_VALUES = 3, 3

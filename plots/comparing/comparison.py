@@ -3,11 +3,11 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from cells import Cell, by_stage, grouped, median, times_ns
-from comparing import times
-from comparing.facts import fact_changes, run_remarks
-from comparing.refusals import Rules
-from comparing.sides import Sides, sides_of
+from ..read.cells import Cell, by_stage, grouped, median, times_ns
+from . import times
+from .facts import fact_changes, run_remarks
+from .refusals import Rules
+from .sides import Sides, sides_of
 
 CellPair = tuple[Cell, Cell]
 

@@ -1,11 +1,11 @@
 """Compares everything about two cells and two runs that is not a time."""
 from typing import Any
 
-from cells import Cell
-from comparing.refusals import Rules
-from console.cell import depths
-from counters import is_better_smaller, is_exact, is_promised
-from tables import exact
+from ..console.cell import depths
+from ..read.cells import Cell
+from ..read.counters import is_better_smaller, is_exact, is_promised
+from ..words.tables import exact
+from .refusals import Rules
 
 WORST_FIRST = ("failed", "skipped", "differs", "not checked", "counted", "agrees")  # verdicts
 OF_ANSWERS = {"pairs_hash": "pairs", "contacts_hash": "contacts"}

@@ -3,8 +3,8 @@ import pathlib
 from dataclasses import dataclass
 from typing import Any
 
-import results
-from output import WrongUsage
+from ..files.output import WrongUsage
+from ..read import results
 
 Named = tuple[pathlib.Path, dict[str, Any]]  # a file's path, and its document or its run
 

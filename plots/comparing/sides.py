@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from merging import merge, source_of
+from ..read.merging import merge, source_of
 
 Document = dict[str, Any]
 

@@ -1,11 +1,11 @@
 """Prints one cell in full: its stages as a table, its counters and its verdict."""
 import itertools
 
-import names
-import results
-from cells import Cell, median
-from console import spread
-from tables import Table, duration, size
+from ..read import results
+from ..read.cells import Cell, median
+from ..words import names
+from ..words.tables import Table, duration, size
+from . import spread
 
 HASHES = (("tree_hash", "tree"), ("pairs_hash", "pairs"), ("contacts_hash", "contacts"))
 # Why sampling ended; the fields are the interquartile range and its target.

@@ -2,12 +2,12 @@
 import math
 from collections.abc import Callable
 
-import results
-import tables
-from cells import Cell
-from console import spread
-from ranking import middle_of
-from tables import Table, whole
+from ..read import results
+from ..read.cells import Cell
+from ..read.ranking import middle_of
+from ..words import tables
+from ..words.tables import Table, whole
+from . import spread
 
 MOST_LINES = 100  # with more cells, only those that do not agree have a line
 

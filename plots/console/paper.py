@@ -1,10 +1,10 @@
 """Prints times of the hierarchy beside those of the paper: Table 1 and Fig. 8."""
 import math
 
-import results
-from cells import Cell, quantiles
-from console import spread
-from tables import Table, size, whole
+from ..read import results
+from ..read.cells import Cell, quantiles
+from ..words.tables import Table, size, whole
+from . import spread
 
 STAGE = "hierarchy"
 

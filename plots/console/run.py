@@ -1,6 +1,6 @@
 """Prints the circumstances of a run."""
-import results
-from tables import counted, duration
+from ..read import results
+from ..words.tables import counted, duration
 
 
 def text(run: results.Run) -> str:

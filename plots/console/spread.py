@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy
 
-import tables
-from cells import Cell
+from ..read.cells import Cell
+from ..words import tables
 
 TITLES = ("median", "p10", "q1", "q3", "p90")
 FRACTIONS = (0.5, 0.1, 0.25, 0.75, 0.9)

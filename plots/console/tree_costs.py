@@ -1,10 +1,10 @@
 """Prints surface area costs of Oi-BVHs and radix trees beside the paper's: Table 4 and Fig. 13."""
 from dataclasses import dataclass
 
-import results
-from cells import Cell, grouped
-from results import USUAL_COSTS
-from tables import Table, exact, fixed, whole
+from ..read import results
+from ..read.cells import Cell, grouped
+from ..read.results import USUAL_COSTS
+from ..words.tables import Table, exact, fixed, whole
 
 RADIX = ("apetrei", "karras", "lbvh", "radix")
 

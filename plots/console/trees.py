@@ -1,11 +1,11 @@
 """Prints builds: tree quality, refits beside rebuilds, kernels beside host threads, and stages beside the device's limit. Each
 page is empty if the file has no cells for it."""
-import names
-import results
-from cells import Cell
-from console import spread
-from console.cell import depths
-from tables import Table, duration, fixed, size
+from ..read import results
+from ..read.cells import Cell
+from ..words import names
+from ..words.tables import Table, duration, fixed, size
+from . import spread
+from .cell import depths
 
 YARDSTICK = "oibvh-host"
 

@@ -1,11 +1,11 @@
 """Writes medians as the list that github-action-benchmark reads for the tool customSmallerIsBetter."""
 import json
 
-from cells import quantiles
-from exporting.names import names_of
-from output import say
-from results import Run
-from tables import counted, exact
+from ..files.output import say
+from ..read.cells import quantiles
+from ..read.results import Run
+from ..words.tables import counted, exact
+from .cell_names import names_of
 
 
 def text(runs: list[Run]) -> str:

@@ -2,14 +2,14 @@
 import csv
 import io
 
-import bvhbench_results
-from results import Run
+from ..read import sample_rows
+from ..read.results import Run
 
 
 def text(runs: list[Run]) -> str:
-    rows = [row for run in runs for row in bvhbench_results.rows(run, counters=False)]
+    rows = [row for run in runs for row in sample_rows.rows(run, counters=False)]
     file = io.StringIO()
-    writer = csv.DictWriter(file, bvhbench_results.columns_of(rows), lineterminator="\n")
+    writer = csv.DictWriter(file, sample_rows.columns_of(rows), lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
     return file.getvalue()

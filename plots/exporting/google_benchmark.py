@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy
 
-from cells import Cell, times_ns
-from exporting.names import Owned, names_of
-from results import Run
+from ..read.cells import Cell, times_ns
+from ..read.results import Run
+from .cell_names import Owned, names_of
 
 Entry = dict[str, Any]
 

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-import families
-from sweeping.planned import Json
+from ..read import families
+from ..sweeping.planned import Json
 
 BOXES = "f32"
 ON_THE_HOST = "on the host, and the device is a GPU: --with-libraries"

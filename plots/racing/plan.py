@@ -2,13 +2,12 @@
 import argparse
 import os
 
-import child
-import command
-import tables
-from json_files import Refused
-from output import WrongUsage
-from racing import candidates
-from sweeping.planned import Json, Planned, Sweep, settled
+from ..files.json_files import Refused
+from ..files.output import WrongUsage
+from ..program import child, command
+from ..sweeping.planned import Json, Planned, Sweep, settled
+from ..words import tables
+from . import candidates
 
 NAME = "best"
 # The scenes without SCENE: one that collides with itself, a cloth that falls, and many objects.

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-import cells
+from ..read import cells
 
 Json = dict[str, Any]
 Settle = Callable[[list[Json]], list[Json]]  # returns the program's answers to experiments

@@ -5,10 +5,10 @@ import json
 import re
 from typing import Any
 
-import tables
-from output import WrongUsage
-from sweeping import sizes
-from sweeping.planned import NO_BUILDER, OPTIONS, Json, Planned, Settle, Sweep, settled
+from ..files.output import WrongUsage
+from ..words import tables
+from . import sizes
+from .planned import NO_BUILDER, OPTIONS, Json, Planned, Settle, Sweep, settled
 
 KEYS = ("sweep", "question", "scenes", "sizes", "builders", "orders", "colliders", "set", "samples", "warm_up", "quality")
 HOLE = "{size}"

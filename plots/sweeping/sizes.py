@@ -2,7 +2,7 @@
 import math
 from typing import NoReturn
 
-from output import WrongUsage
+from ..files.output import WrongUsage
 
 MOST = 2**31
 MOST_SIZES = 10000

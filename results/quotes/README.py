@@ -1,10 +1,9 @@
 import operator
 
-import answer
-import ranking
-import tables
-from cells import Cell
-from quotes import ONE_SET, Document, File, asked_of, frame_ms, query_us, sah, tree_us, us
+from plots.evidence.quotes import ONE_SET, Document, File, asked_of, frame_ms, query_us, sah, tree_us, us
+from plots.read import ranking, ranking_text
+from plots.read.cells import Cell
+from plots.words import tables
 
 AS_PRINTED = "bvtt over oibvh-multi"
 SCANS = ("bunny_69451", "armadillo_86482", "turbineblade_199034", "dragon_202520", "happy_buddha_1087716")
@@ -12,7 +11,7 @@ SCANS = ("bunny_69451", "armadillo_86482", "turbineblade_199034", "dragon_202520
 
 def told(row: ranking.Row, best: ranking.Row) -> str:
     time = tables.three_digits(row.ns * 1e-6)
-    return f"**{time}**" if row is best else f"{time} ({'=' if row.tied else f'× {answer.number(row.ratio)}'})"
+    return f"**{time}**" if row is best else f"{time} ({'=' if row.tied else f'× {ranking_text.number(row.ratio)}'})"
 
 
 def families(doc: Document) -> None:
@@ -21,7 +20,7 @@ def families(doc: Document) -> None:
     for machine in ("h200", "pocl-2-cores"):
         found = ranking.ranked(File(f"{machine}/families").cells)
         as_printed += [row.ratio for rows in found.scenes.values() for row in rows if asked_of(row.first) == AS_PRINTED]
-        bests += [{answer.family(row): row for row in answer.best_of_families(rows)} for rows in found.scenes.values()]
+        bests += [{ranking_text.family(row): row for row in ranking_text.best_of_families(rows)} for rows in found.scenes.values()]
     labels = {"implicit trees": "implicit trees, the paper's", "front tracking": "front tracking, over any tree"}
     for family in bests[0]:
         doc.row(labels.get(family, family), *(told(of[family], next(iter(of.values()))) for of in bests))

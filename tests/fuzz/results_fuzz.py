@@ -26,13 +26,12 @@ from collections.abc import Callable
 from typing import Any
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.insert(0, str(ROOT))
 
-import all as all_figures  # noqa: E402
-import command  # noqa: E402
-import report  # noqa: E402
-import report_page  # noqa: E402
-from commands import compare, export, merge, show  # noqa: E402
+from plots.commands import compare, export, merge, show  # noqa: E402
+from plots.figures import catalog as all_figures  # noqa: E402
+from plots.page import html, report  # noqa: E402
+from plots.program import command  # noqa: E402
 
 NUMBERS = (0, 1, -1, 2, 2**31, 2**53 + 1, 2**63, 2**64, 10**30, 10**400, 0.0, -0.0, 1e-320, 1e-17, 0.5, 1e99, 1e101, 1e308,
            -1e308, float("inf"), float("nan"))
@@ -160,7 +159,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory(dir=memory) as name:
         folder = pathlib.Path(name)
         (folder / "plotly.js").write_text("", encoding="utf-8")
-        report_page.plotly_file = lambda: folder / "plotly.js"  # loading it would take most of a page's time
+        html.plotly_file = lambda: folder / "plotly.js"  # loading it would take most of a page's time
         for number in range(arguments.cases):
             if time.monotonic() > end:
                 break

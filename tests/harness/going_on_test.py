@@ -143,7 +143,7 @@ def test_a_signal_ends_what_reads_generates_judges_and_measures_and_keeps_what_i
 
 def test_a_signal_ends_what_compiles_samples_checks_and_draws():
     shutil.copytree(SOURCE / "plots", "home/plots")
-    pathlib.Path("home/plots/all.py").write_text("import pathlib\nimport time\npathlib.Path('begun').touch()\ntime.sleep(600)\n")
+    pathlib.Path("home/plots/figures/catalog.py").write_text("import pathlib\nimport time\npathlib.Path('begun').touch()\ntime.sleep(600)\n")
     compiled = (*LEAF[:2], "bvtt", "--builder", "oibvh-multi", "--narrow", "exact", "--scene", "soup:3000", "--samples", "1000000")
     for seconds, words in (*((after, compiled) for after in (0.3, 0.7, 1.1)),
                            (1.5, begun(samples=1000000)), (1, ("build", "--builder", "perfect", "--scene", "cloth-dress:20000:60")),

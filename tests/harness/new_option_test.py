@@ -10,7 +10,7 @@ import tempfile
 
 MOST_FILES = 3
 TOLD = """
-import cells, names
+from plots.read import cells
 raw = {"experiment": "e", "scene": {"name": "s"}, "builder": {"name": "b", "options": {}}, "status": "measured"}
 other = raw | {"builder": {"name": "b", "options": {"bins": 8}}}
 usual = raw | {"builder": {"name": "b", "options": {"bins": 32}}}
@@ -26,8 +26,8 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         plots = pathlib.Path(folder, "plots")
         shutil.copytree(root / "plots", plots, ignore=shutil.ignore_patterns("__pycache__"))
-        shutil.copy(example / "plots" / "names.py", plots)
-        subprocess.run([sys.executable, "-c", TOLD], cwd=plots, check=True)
+        shutil.copy(example / "plots" / "words" / "names.py", plots / "words")
+        subprocess.run([sys.executable, "-c", TOLD], cwd=folder, check=True)
     print(f"an option more: {len(changed)} files")
     return 0
 

@@ -15,7 +15,7 @@ from typing import Any
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 GOLDEN = ROOT / "tests" / "golden"
 ALL_CASES = os.environ.get("BVHBENCH_TESTS") == "all"  # .ci/nightly
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path[:0] = [str(ROOT), str(ROOT / "plots")]
 Raw = dict[str, Any]
 
 
@@ -45,7 +45,7 @@ def document(*all_cells: Raw, **facts: Any) -> Raw:
 
 
 def run_of(*all_cells: Raw, **facts: Any) -> Any:
-    import results
+    from plots.read import results
 
     return results.Run(pathlib.Path("made.json"), document(*all_cells, **facts))
 
@@ -81,8 +81,9 @@ class InFolder(unittest.TestCase):
         return path
 
     def run_script(self, name: str, *arguments: object) -> subprocess.CompletedProcess:
-        """Runs a script as from a shell, but in a fork of this process, which has already loaded matplotlib."""
-        command = [str(ROOT / "plots" / name), *map(str, arguments)]
+        """Runs a file or folder of plots, named before its first words, as from a shell, but in a fork of this process, which has already loaded matplotlib."""
+        script, *words = name.split()
+        command = [str(ROOT / "plots" / script), *words, *map(str, arguments)]
         with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as errors:
             sys.stdout.flush(), sys.stderr.flush()
             if (child := os.fork()) == 0:

@@ -1,23 +1,17 @@
 #!/usr/bin/env python3
 """Tests the ranking of builders and pipelines, the sentence and the tables made of it, and the candidates of `best`."""
 import json
-import re
 import unittest
 from typing import Any
 
-from base import ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
+from base import ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds the source root to sys.path
 
-import answer
-import best_bars
-import families
-import overview
-import ranking
-import results
-import style
-import tables
-from cells import Cell
-from console import best as page
-from racing import candidates
+from plots.console import best_table as page
+from plots.draw import style
+from plots.figures import best_bars, overview
+from plots.racing import candidates
+from plots.read import families, ranking, ranking_text, results
+from plots.read.cells import Cell
 
 
 def frame(name: str, times: list[int], builder: str = "oibvh-multi", scene: str = "bunny", number: int = 0, order: int = 0,
@@ -51,7 +45,7 @@ class TheFilesOfFamilies(unittest.TestCase):
         for machine in ("h200", "pocl-2-cores"):
             found = ranking.ranked(results.load(ROOT / "results" / machine / "families.json.xz").frames("families"))
             self.assertEqual(list(found.scenes), ["bunny", "unc_cloth_ball", "unc_nbody"])
-            bests = [row for rows in found.scenes.values() for row in answer.best_of_families(rows)]
+            bests = [row for rows in found.scenes.values() for row in ranking_text.best_of_families(rows)]
             self.assertGreaterEqual(min(len(cell.samples) for row in bests for cell in row.cells), 15)
 
 
@@ -89,7 +83,7 @@ class ARanking(unittest.TestCase):
         self.assertEqual(names(found), ["group"])
         self.assertIn("WRONG: bunny, frame 0: leaf over oibvh-multi: 3 pairs are lost\n", page.text(found))
         only = ranked(wrong)
-        self.assertEqual((only.rows, answer.sentence(only)), ([], ""))
+        self.assertEqual((only.rows, ranking_text.sentence(only)), ([], ""))
         self.assertIn("WRONG", page.text(only))
 
     def test_for_memory_is_by_bytes_and_then_by_time(self) -> None:
@@ -98,7 +92,7 @@ class ARanking(unittest.TestCase):
         self.assertEqual(names(found), ["bvtt", "leaf", "group"])
         self.assertEqual([row.tied for row in found.rows], [True, False, False])
         self.assertEqual(found.rows[2].ratio, 1.25)
-        self.assertIn("take `bvtt` over `oibvh-multi`: 4.00 kB and 150 us a frame", answer.sentence(found))
+        self.assertIn("take `bvtt` over `oibvh-multi`: 4.00 kB and 150 us a frame", ranking_text.sentence(found))
 
     def test_for_queries_leaves_the_tree_out(self) -> None:
         slow_tree = frame("group", NARROW)
@@ -119,7 +113,7 @@ class ARanking(unittest.TestCase):
         self.assertEqual([round(row.ratio, 1) for row in found.rows], [2.0, 3.0])
         self.assertEqual(found.rows[0].by_scene, [4.0, 1.0])
         self.assertIn("all scenes", page.text(found))
-        self.assertIn("2.0 times the time of each scene's best, in the geometric mean over 2 scenes", answer.sentence(found))
+        self.assertIn("2.0 times the time of each scene's best, in the geometric mean over 2 scenes", ranking_text.sentence(found))
 
     def test_sums_frames_and_puts_what_lacks_some_behind(self) -> None:
         found = ranked(frame("leaf", [100] * 5), frame("leaf", [300] * 5, number=1), frame("group", [150] * 5),
@@ -149,24 +143,24 @@ class ASentence(unittest.TestCase):
         order = {"order": "hilbert30", "leaves": "sorted"}
         found = ranked(frame("block", NARROW, "oibvh-single", options=order), frame("bvtt", NARROW, "oibvh-single", options=order),
                        frame("group", [190] * 5, "karras"), frame("front", [250] * 5))
-        self.assertEqual(answer.sentence(found), "take `block` over `oibvh-single`, order hilbert30, sorted leaves: 100 us a frame, "
+        self.assertEqual(ranking_text.sentence(found), "take `block` over `oibvh-single`, order hilbert30, sorted leaves: 100 us a frame, "
                          "1.90 times as fast as the next family (`karras`); `bvtt` is no slower within noise.")
-        self.assertEqual(answer.repeated(found.rows[0], "my mesh.obj", ["--narrow", "exact"]),
+        self.assertEqual(ranking_text.repeated(found.rows[0], "my mesh.obj", ["--narrow", "exact"]),
                          "bvhbench collide --builder oibvh-single --collider block --order hilbert30 --leaves sorted "
                          "--scene 'my mesh.obj' --narrow exact")
         alone = ranked(frame("leaf", NARROW), frame("front", [210] * 5))
-        self.assertIn("2.1 times as fast as the next family (`front`).", answer.sentence(alone))
+        self.assertIn("2.1 times as fast as the next family (`front`).", ranking_text.sentence(alone))
 
     def test_without_another_family_names_the_next(self) -> None:
         found = ranked(frame("leaf", NARROW), frame("leaf", [150] * 5, options={"order": "kd"}))
-        self.assertIn(", 1.50 times as fast as the next, order kd.", answer.sentence(found))
+        self.assertIn(", 1.50 times as fast as the next, order kd.", ranking_text.sentence(found))
         many = ranked(*(frame("leaf", NARROW, builder) for builder in ("karras", "perfect", "oibvh-multi", "apetrei", "oibvh-wide4")))
-        self.assertIn("; no slower within noise: ", answer.sentence(many))
-        self.assertIn("; 1 more.", answer.sentence(many))
+        self.assertIn("; no slower within noise: ", ranking_text.sentence(many))
+        self.assertIn("; 1 more.", ranking_text.sentence(many))
 
     def test_is_given_for_files_that_have_one_question_and_right_answers(self) -> None:
         def of(*raw: Raw) -> str:
-            return answer.of_cells(run_of(*raw).all_cells)
+            return ranking_text.of_cells(run_of(*raw).all_cells)
 
         two = frame("leaf", NARROW), frame("group", [200] * 5)
         self.assertTrue(of(*two).startswith("take `leaf`"))
@@ -186,7 +180,7 @@ class ASentence(unittest.TestCase):
                                                                              ("grid", [1], "none"), ("leaf", [1], "oibvh-wide8"))],
                          ["front tracking", "radix trees", "hierarchical grid", "wide trees"])
         for name in style.LOOKS:
-            self.assertNotEqual(families.of_builder(name), name, f"plots/families.py has no family for {name}")
+            self.assertNotEqual(families.of_builder(name), name, f"plots/read/families.py has no family for {name}")
 
 
 def walled(made: Raw, walls: list[int], round_trip: int = 0, outside: bool = False) -> Raw:
@@ -214,7 +208,7 @@ class AMethodFromOutside(InFolder):
         self.assertEqual((names(found), [row.ratio for row in found.rows]), (["group", "leaf", "fast"], [1, 1.5, 9002 / 1200]))
         self.assertEqual([row.tied for row in found.rows], [True, False, False])
         self.assertIn("take `group` over `oibvh-multi`: 1.20 ms a frame by the wall clock, 7.5 times as fast as the next family (`fast`).",
-                      answer.sentence(found))
+                      ranking_text.sentence(found))
         self.assertIn(" wall ms ", page.text(found))
         self.assertEqual(names(ranked(*self.ours)), ["leaf", "group"])  # by their stages
         self.assertNotIn("wall", page.text(ranked(*self.ours)))
@@ -227,7 +221,7 @@ class AMethodFromOutside(InFolder):
         elsewhere = [walled(frame("group", [100] * 5, scene="cow"), [100] * 5), walled(frame("leaf", [90] * 5, scene="cow"), [180] * 5)]
         several = ranked(self.slip, *self.ours, *elsewhere)
         self.assertEqual([(row.first.collider, round(row.ratio, 2)) for row in several.rows], [("group", 1), ("leaf", 1.64)])
-        self.assertIn("of each scene's best, in the geometric mean over 2 scenes by the wall clock", answer.sentence(several))
+        self.assertIn("of each scene's best, in the geometric mean over 2 scenes by the wall clock", ranking_text.sentence(several))
 
     def test_leaves_a_query_what_the_tree_leaves_of_the_wall_clock(self) -> None:
         found = ranked(self.slip, *self.ours, objective="query")
@@ -244,14 +238,14 @@ class AMethodFromOutside(InFolder):
 
     def test_is_warned_of_where_stages_leave_out_most_of_the_time(self) -> None:
         said = "bunny, frame 0: fast: its stages take 9.00 us, and 9.00 ms pass by the wall clock"
-        self.assertEqual(answer.warnings([*map(Cell, self.ours), Cell(self.slip)]), [said])
+        self.assertEqual(ranking_text.warnings([*map(Cell, self.ours), Cell(self.slip)]), [said])
         self.assertIn(f"\nwarning: {said}\n", page.text(ranked(self.slip, *self.ours)))
         path = self.written(document(self.slip, *self.ours))
         shown = self.made("__main__.py", "show", path).stdout
         self.assertTrue(shown.startswith("take `group` over `oibvh-multi`: 1.20 ms a frame by the wall clock"), shown)
         self.assertIn(f"\nwarning: {said}\n", shown)
         self.assertIn(said, self.made("__main__.py", "show", self.written(document(self.slip), "alone.json")).stdout)
-        self.made("report.py", path, "-o", self.folder / "page.html")
+        self.made("__main__.py report", path, "-o", self.folder / "page.html")
         report = (self.folder / "page.html").read_text(encoding="utf-8")
         for words in (f'<p class="warning">{said}</p>', "group over oibvh-multi is soonest on bunny: 1.20 ms; ",
                       "Times are by the wall clock where a method from outside is compared."):
@@ -266,8 +260,8 @@ class AMethodFromOutside(InFolder):
 
     def test_many_are_warned_of_in_six_lines(self) -> None:
         cells = [Cell(walled(frame("fast", [9] * 5, number=number), [9000] * 5, outside=True)) for number in range(8)]
-        self.assertEqual(len(answer.warnings(cells)), 6)
-        self.assertEqual(answer.warnings(cells)[-1], "the same of 3 more cells")
+        self.assertEqual(len(ranking_text.warnings(cells)), 6)
+        self.assertEqual(ranking_text.warnings(cells)[-1], "the same of 3 more cells")
 
     def test_is_drawn_with_its_wall_clock(self) -> None:
         style.set_up()

@@ -6,11 +6,10 @@ import pathlib
 import tempfile
 import unittest
 
-from base import GOLDEN, ROOT  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT  # first: it adds the source root to sys.path
 
 import bvhbench_results
-import json_files
-import results
+from plots.read import results
 
 TABLE1, TABLE2 = GOLDEN / "table1.json", GOLDEN / "table2.json"
 
@@ -48,7 +47,7 @@ class OfRead(unittest.TestCase):
         self.assertEqual(one.nodes_count[0], cell.counters["nodes_count"])
 
     def test_what_is_no_result_file_is_refused(self) -> None:
-        with self.assertRaisesRegex(json_files.Refused, "is no result file"):
+        with self.assertRaisesRegex(bvhbench_results.Refused, "is no result file"):
             bvhbench_results.read(ROOT / "results" / "paper" / "table1.json")
 
 

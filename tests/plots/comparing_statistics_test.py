@@ -4,10 +4,10 @@ import unittest
 
 import numpy
 
-import base  # noqa: F401  first: it adds plots to sys.path
+import base  # noqa: F401  first: it adds the source root to sys.path
 
-from comparing import student, times
-from ranking import rank_below
+from plots.comparing import student, times
+from plots.read.ranking import rank_below
 
 
 class Statistics(unittest.TestCase):

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy
 
-from base import Raw  # first: it adds plots to sys.path
+from base import Raw  # first: it adds the source root to sys.path
 
-import counters
-from cells import Cell
-from comparing import axes, comparison, report, sides
-from comparing.refusals import Rules, require_comparable
-from output import WrongUsage
+from plots.comparing import axes, comparison, comparison_text, sides
+from plots.comparing.refusals import Rules, require_comparable
+from plots.files.output import WrongUsage
+from plots.read import counters
+from plots.read.cells import Cell
 
 BUILDERS = ["perfect", "karras", "apetrei", "lbvh-levels", "oibvh-single", "oibvh-multi"]
 FOUR = ["karras", "apetrei", "perfect", "oibvh-multi"]
@@ -92,14 +92,14 @@ class Times(unittest.TestCase):
         self.assertEqual({each.verdict for each in found.cells}, {UNSURE})
         smallest = found.cells[1].time.smallest
         self.assertGreater(smallest, 1.2)
-        self.assertRegex(report.text(found, show_all=True), f"karras .* {100 * (smallest - 1):.0f} % +3x20 +UNSURE")
+        self.assertRegex(comparison_text.text(found, show_all=True), f"karras .* {100 * (smallest - 1):.0f} % +3x20 +UNSURE")
         self.assertLess(compared(side(1, 8, 0.01), side(2, 8, 0.01)).cells[1].time.smallest, 1.08)
 
     def test_of_one_process_a_side_must_differ_by_more_than_processes_do(self) -> None:
         for factor, expected in ((1, UNSURE), (1.5, UNSURE), (1.8, SLOWER), (0.5, FASTER)):
             found = compared(document(cell()), document(cell(median_ns=factor * 1e6, seed=2)))
             self.assertEqual([each.verdict for each in found.cells], [expected], factor)
-        self.assertIn("the spread between processes is not known", report.text(found))
+        self.assertIn("the spread between processes is not known", comparison_text.text(found))
         noisy = [document(cell(seed=seed, median_ns=ns, samples=9, noise=0.6)) for seed, ns in ((1, 1e6), (2, 1.8e6))]
         self.assertEqual(verdicts(*noisy), [UNSURE])
 
@@ -108,8 +108,8 @@ class Times(unittest.TestCase):
         for after, slower, expected in ((8, 1.4, UNSURE), (8, 1.8, SLOWER), (0, 1.4, SLOWER)):
             found = compared(first, side(2, slower={"karras": slower}, first=after))
             self.assertEqual(found.cells[1].verdict, expected)
-            self.assertEqual("did not take turns" in report.text(found), after > 0)
-        self.assertIn("the same number of them", report.text(compared(first, side(2, 7))))
+            self.assertEqual("did not take turns" in comparison_text.text(found), after > 0)
+        self.assertIn("the same number of them", comparison_text.text(compared(first, side(2, 7))))
 
     def test_of_a_process_without_samples_have_no_spread(self) -> None:
         first, second = side(1), side(2, slower={"karras": 1.4})
@@ -121,16 +121,16 @@ class Times(unittest.TestCase):
     def test_of_fewer_than_nine_samples_are_unsure(self) -> None:
         for samples, expected in ((8, UNSURE), (9, SLOWER)):
             self.assertEqual(verdicts(document(cell(samples=samples)), document(cell(median_ns=3e6, samples=samples))), [expected])
-        self.assertIn("1 have fewer than 9 samples", report.text(compared(document(cell(samples=8)), document(cell()))))
-        self.assertNotIn("bunny", report.text(compared(document(cell(samples=0)), document(cell())), show_all=True))
+        self.assertIn("1 have fewer than 9 samples", comparison_text.text(compared(document(cell(samples=8)), document(cell()))))
+        self.assertNotIn("bunny", comparison_text.text(compared(document(cell(samples=0)), document(cell())), show_all=True))
 
     def test_under_conditions_that_warn_are_unsure(self) -> None:
         first, second = side(1), side(2, slower={"karras": 1.3})
         second["merged_from"][3]["conditions"] = {"warnings": ["the host is on battery"]}
         found = compared(first, second)
         self.assertEqual((found.cells[1].verdict, found.withheld, found.regressions), (UNSURE, 1, 0))
-        self.assertIn("warning: B, process 4: the host is on battery\n", report.text(found))
-        self.assertIn("1 cell may have changed, or the warnings are why\nno regression found, ", report.text(found))
+        self.assertIn("warning: B, process 4: the host is on battery\n", comparison_text.text(found))
+        self.assertIn("1 cell may have changed, or the warnings are why\nno regression found, ", comparison_text.text(found))
         self.assertIn("SAME", {each.verdict for each in found.cells})
 
     def test_of_all_stages_together_decide_and_each_is_shown(self) -> None:
@@ -178,8 +178,8 @@ class TwoBuilders(unittest.TestCase):
             only, = found.cells
             self.assertEqual((only.verdict, found.regressions), (FASTER, 0))
             self.assertAlmostEqual(only.time.ratio.value, 0.4, delta=0.02)
-            self.assertIn("bunny: perfect against karras", report.text(found))
-            self.assertIn("1 cell of perfect against karras: 0 SAME, 1 FASTER", report.text(found))
+            self.assertIn("bunny: perfect against karras", comparison_text.text(found))
+            self.assertIn("1 cell of perfect against karras: 0 SAME, 1 FASTER", comparison_text.text(found))
         self.assertEqual(self.held(both, both, "perfect,karras").regressions, 0)  # slower is no regression
 
     def test_a_common_speed_of_all_colliders_is_not_removed(self) -> None:
@@ -198,7 +198,7 @@ class TwoBuilders(unittest.TestCase):
         both["cells"][1]["check"]["pairs_hash"] = "4" * 16
         found = self.held(both, both)
         self.assertEqual(found.regressions, 1)
-        self.assertIn("WRONG bunny: perfect against karras: other pairs", report.text(found))
+        self.assertIn("WRONG bunny: perfect against karras: other pairs", comparison_text.text(found))
 
     def test_that_have_nothing_in_common_are_refused(self) -> None:
         only, other = document(cell("karras")), document(cell("perfect", frame=2))
@@ -319,18 +319,18 @@ class Cells(unittest.TestCase):
         self.assertEqual([each.builder for each in found.only_first], ["karras"])
         self.assertEqual([each.builder for each in found.only_second], ["perfect"])
         self.assertEqual((found.regressions, compared(first, second, allow_missing=True).regressions), (1, 0))
-        self.assertIn("REGRESSION bunny: karras: not in B\nnew bunny: perfect: only in B\n", report.text(found))
+        self.assertIn("REGRESSION bunny: karras: not in B\nnew bunny: perfect: only in B\n", comparison_text.text(found))
 
     def test_are_shown_worst_first(self) -> None:
         first, second = (document(*(cell(name, median, seed=seed + place, frame=place)  # each on a frame of its own
                                     for place, (name, median) in enumerate(zip(FOUR, medians))))
                          for seed, medians in ((0, [1e6] * 4), (9, [1e6, 1.2e6, 2e6, 5e5])))
-        text = report.text(compared(first, second))
+        text = comparison_text.text(compared(first, second))
         self.assertLess(text.index("perfect"), text.index("apetrei"))
         self.assertLess(text.index("apetrei"), text.index("oibvh-multi"))
         self.assertNotIn("karras", text)
         self.assertIn("4 cells: 0 SAME, 1 FASTER, 1 SLOWER, 2 UNSURE at 5.0 %\n1 regression found, 2 cells unsure\n", text)
-        self.assertIn("karras", report.text(compared(first, second), show_all=True))
+        self.assertIn("karras", comparison_text.text(compared(first, second), show_all=True))
 
 
 class Refusals(unittest.TestCase):

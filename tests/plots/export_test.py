@@ -8,12 +8,12 @@ import unittest
 import jsonschema
 import pandas
 
-from base import GOLDEN, ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds the source root to sys.path
 
 import bvhbench_results
-import results
-from cells import Cell
-from exporting import names
+from plots.exporting import cell_names
+from plots.read import results
+from plots.read.cells import Cell
 
 SCHEMA = json.loads((ROOT / "tests" / "google_benchmark.schema.json").read_text(encoding="utf-8"))
 WITH_CELLS = [path for path in sorted(GOLDEN.glob("*.json")) if path.name != "stress.json"]
@@ -45,10 +45,10 @@ class OfGoogleBenchmark(Exports):
             medians = frame.groupby("name", sort=False).real_time.median()
             run = results.everything(path)
             cells = [(run, one) for one in run.all_cells]
-            wanted = {name: one.median_ns() for name, (_, one) in zip(names.names_of(cells), cells) if one.has_times}
+            wanted = {name: one.median_ns() for name, (_, one) in zip(cell_names.names_of(cells), cells) if one.has_times}
             self.assertGreater(len(wanted), 0, path)
             self.assertEqual({name: medians[name] for name in wanted}, wanted)
-            for (_, one), name in zip(cells, names.names_of(cells)):
+            for (_, one), name in zip(cells, cell_names.names_of(cells)):
                 rows = frame[frame.name == name]
                 self.assertEqual(len(rows), max(len(one.samples), 1) if one.has_times else 1)
                 self.assertEqual(set(rows.label), {one.verdict})
@@ -95,23 +95,23 @@ class OfGoogleBenchmark(Exports):
 class OfNames(unittest.TestCase):
     def test_are_different_for_different_cells_of_all_golden_files(self) -> None:
         cells = [(run, one) for run in map(results.everything, WITH_CELLS) for one in run.all_cells]
-        found = names.names_of(cells)
+        found = cell_names.names_of(cells)
         self.assertEqual(len(set(found)), len(cells))
-        self.assertEqual(len({names.name_of(one) for _, one in cells}), len({(one.identity, one.starts_from_leaves) for _, one in cells}))
+        self.assertEqual(len({cell_names.name_of(one) for _, one in cells}), len({(one.identity, one.starts_from_leaves) for _, one in cells}))
 
     def test_have_what_is_not_the_default_and_are_equal_in_two_files(self) -> None:
         made = cell(collider={"name": "bvtt", "options": {"jump": "2"}}, operation="collide", sampling={"caches": "cold"})
         made["builder"] = {"name": "karras", "options": {"order": "hilbert30", "boxes": "f32"}}
         made["scene"] |= {"frame": 3, "between": 2}
-        self.assertEqual(names.name_of(Cell(made)), "table1/bunny/frame:3/between:2/karras/order:hilbert30/bvtt/jump:2/cold")
-        self.assertEqual(names.name_of(Cell({**made, "counters": {}})), names.name_of(Cell(made)))
+        self.assertEqual(cell_names.name_of(Cell(made)), "table1/bunny/frame:3/between:2/karras/order:hilbert30/bvtt/jump:2/cold")
+        self.assertEqual(cell_names.name_of(Cell({**made, "counters": {}})), cell_names.name_of(Cell(made)))
 
     def test_of_a_cell_measured_twice_are_numbered_or_have_the_file(self) -> None:
         one, other = run_of(cell(), cell()), run_of(cell())
         one.path, other.path = pathlib.Path("a.json"), pathlib.Path("b.json.xz")
-        name = names.name_of(Cell(cell()))
-        self.assertEqual(names.names_of([(one, each) for each in one.all_cells]), [name, f"{name}/again:2"])
-        self.assertEqual(names.names_of([(run, each) for run in (one, other) for each in run.all_cells[:1]]),
+        name = cell_names.name_of(Cell(cell()))
+        self.assertEqual(cell_names.names_of([(one, each) for each in one.all_cells]), [name, f"{name}/again:2"])
+        self.assertEqual(cell_names.names_of([(run, each) for run in (one, other) for each in run.all_cells[:1]]),
                          [f"{name}/file:a", f"{name}/file:b"])
 
 

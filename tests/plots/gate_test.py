@@ -4,11 +4,11 @@ import copy
 import json
 import unittest
 
-from base import ROOT  # first: it adds plots to sys.path
+from base import ROOT  # first: it adds the source root to sys.path
 
-from cells import Cell
-from gate import baseline, changes
-from json_files import Refused
+from plots.comparing import baseline, baseline_changes
+from plots.files.json_files import Refused
+from plots.read.cells import Cell
 
 KEPT = ROOT / "results" / "baseline" / "smoke-cpu.json"
 LIBRARIES = ("embree", "fcl")
@@ -22,7 +22,7 @@ def times(*fastest: float) -> list[dict]:
 
 
 def told(before: list[dict], now: list[dict], tolerance: float = 5, some: bool = False) -> tuple[list[str], list[str]]:
-    found = changes.compare(before, now, tolerance, some)
+    found = baseline_changes.compare(before, now, tolerance, some)
     return found.regressions, found.remarks
 
 
@@ -82,10 +82,10 @@ class Kept(unittest.TestCase):
 class Changed(unittest.TestCase):
     def test_the_same_is_no_change(self) -> None:
         cells = json.loads(KEPT.read_text(encoding="utf-8"))["cells"]
-        found = changes.compare(cells, cells, 5, False)
+        found = baseline_changes.compare(cells, cells, 5, False)
         self.assertEqual((found.regressions, found.remarks, found.compared), ([], [], len(cells)))
         self.assertEqual(found.timed, sum("fastest_ns" in cell for cell in cells))
-        self.assertTrue(changes.report(found, 5).endswith(" times within 5 times the ratio there: as before\n"))
+        self.assertTrue(baseline_changes.report(found, 5).endswith(" times within 5 times the ratio there: as before\n"))
 
     def test_counters_and_hashes_are_held_exactly(self) -> None:
         zeros, ones, finer = "0" * 16, "1" * 16, 1.2500000000000002
@@ -113,9 +113,9 @@ class Changed(unittest.TestCase):
         both, first = times(1e6, 1e6), times(1e6)
         self.assertEqual(told(both, first), (["soup: 1: is in the baseline only"], []))
         self.assertEqual(told(both, first, some=True), ([], []))
-        found = changes.compare(first, both, 5, True)
+        found = baseline_changes.compare(first, both, 5, True)
         self.assertEqual((found.regressions, found.remarks, found.new), ([], [], ["soup: 1"]))
-        self.assertIn("new: soup: 1: not in the baseline; `bvhbench smoke --update` adds it\n", changes.report(found, 5))
+        self.assertIn("new: soup: 1: not in the baseline; `bvhbench smoke --update` adds it\n", baseline_changes.report(found, 5))
 
     def test_times_are_compared_with_the_others_of_their_scene(self) -> None:
         before, slower = times(1e6, 2e6, 3e6), times(3e6, 6e6, 9e6)  # another machine
@@ -135,7 +135,7 @@ class Changed(unittest.TestCase):
         before, now = times(1e6, 1e6), times(1e6, 1e6)
         for cell in now:
             cell["counters"]["nodes_count"] = 8
-        text = changes.report(changes.compare(before, now, 1e9, False), 1e9)
+        text = baseline_changes.report(baseline_changes.compare(before, now, 1e9, False), 1e9)
         self.assertEqual(text, "REGRESSION soup: 0: nodes_count 8, was 7\nREGRESSION soup: 1: nodes_count 8, was 7\n"
                                "2 cells compared with the baseline, 2 times within 1e+09 times the ratio there: 2 regressions\n")
 

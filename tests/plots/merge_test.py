@@ -4,15 +4,13 @@ import copy
 import json
 import unittest
 
-from base import GOLDEN, InFolder  # first: it adds plots to sys.path
+from base import GOLDEN, InFolder  # first: it adds the source root to sys.path
 
-import cells
-import documents
-import file_lock
-import merging
-from json_files import Refused
-from output import WrongUsage
-from reserved import reserved
+from plots.files import documents, file_lock
+from plots.files.json_files import Refused
+from plots.files.output import WrongUsage
+from plots.files.reserved import reserved
+from plots.read import cells, merging
 
 
 def golden(name: str = "table1") -> dict:

@@ -12,9 +12,9 @@ import sys
 import tempfile
 import unittest
 
-from base import GOLDEN, ROOT, InFolder, golden  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT, InFolder, golden  # first: it adds the source root to sys.path
 
-import output
+from plots.files import output
 
 TABLE1 = GOLDEN / "table1.json"
 DEEP = "[" * 100_000
@@ -45,7 +45,7 @@ CHANGES = {  # of a cell
 
 class Malformed(InFolder):
     def assert_told(self, path: pathlib.Path, words: str) -> None:
-        for script, out in (("report.py", self.folder / "r.html"), ("all.py", self.folder / "out")):
+        for script, out in (("__main__.py report", self.folder / "r.html"), ("figures", self.folder / "out")):
             done = self.run_script(script, path, "--out", out)
             self.assertEqual((done.returncode, done.stdout), (3, ""), done)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -88,19 +88,19 @@ class Malformed(InFolder):
     def test_devices_are_no_results(self) -> None:
         self.assert_told(pathlib.Path("/dev/null"), "it is a device, not a result file")
 
-    def test_a_folder_has_no_page(self) -> None:
-        done = self.run_script("report.py", self.folder, "--out", self.folder / "r.html")
-        self.assertEqual((done.returncode, done.stderr), (3, f"bvhbench: {self.folder}: it is a folder, not a result file\n"))
+    def test_a_folder_without_result_files_has_no_page(self) -> None:
+        done = self.run_script("__main__.py report", self.folder, "--out", self.folder / "r.html")
+        self.assertEqual((done.returncode, done.stderr), (3, f"bvhbench: the folder {self.folder} has no result file (.json or .json.xz) in it\n"))
 
     def test_control_characters_of_a_name_do_not_reach_the_terminal(self) -> None:
-        done = self.run_script("report.py", self.folder / "a\x1b[31m\nb", "--out", self.folder / "r.html")
+        done = self.run_script("__main__.py report", self.folder / "a\x1b[31m\nb", "--out", self.folder / "r.html")
         self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1))
         self.assertIn("a\\x1b[31m\\nb: No such file", done.stderr)
 
     def test_a_name_may_be_any_bytes(self) -> None:
         path = pathlib.Path(os.fsdecode(os.fsencode(self.folder) + b"/\xff.json"))
         path.write_bytes(TABLE1.read_bytes())
-        done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", path, "-o", path.with_suffix(".html")], capture_output=True, check=False)
+        done = subprocess.run([sys.executable, ROOT / "plots", "report", path, "-o", path.with_suffix(".html")], capture_output=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         self.assertIn(b"\xff.html", done.stdout)
 
@@ -114,7 +114,7 @@ class Outputs(InFolder):
         document = golden("table1")
         document["cells"] = [cell for cell in document["cells"] if cell["scene"]["name"] == "bunny"]  # few are drawn in less time
         self.small = self.written(document)
-        self.made = (("report.py", self.page, self.page), ("table1.py", self.picture, self.folder))
+        self.made = (("__main__.py report", self.page, self.page), ("figures --only table1", self.picture, self.folder))
 
     def make(self, code: int, script: str, out: pathlib.Path, *more: str) -> str:
         """Runs a script and returns its standard error."""
@@ -138,19 +138,19 @@ class Outputs(InFolder):
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["r.html", "table1.json", "table1.png", "table1.svg"])
 
     def test_a_full_device_is_a_sentence(self) -> None:
-        self.assertIn("/dev/full cannot be written: No space left on device", self.make(3, "report.py", pathlib.Path("/dev/full")))
+        self.assertIn("/dev/full cannot be written: No space left on device", self.make(3, "__main__.py report", pathlib.Path("/dev/full")))
         self.assertTrue(stat.S_ISCHR(os.stat("/dev/full").st_mode))
 
     def test_a_full_standard_output_is_a_sentence(self) -> None:
         with open("/dev/full", "wb") as full:
-            done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", TABLE1, "-o", self.page], stdout=full, stderr=subprocess.PIPE, check=False)
+            done = subprocess.run([sys.executable, ROOT / "plots", "report", TABLE1, "-o", self.page], stdout=full, stderr=subprocess.PIPE, check=False)
         self.assertEqual((done.returncode, done.stderr), (3, b"bvhbench: standard output cannot be written: No space left on device\n"))
 
     def test_a_page_goes_to_standard_output_if_asked(self) -> None:
         with tempfile.TemporaryFile() as out:
             out.write(b"before\n")
             out.flush()
-            subprocess.run([sys.executable, ROOT / "plots" / "report.py", TABLE1, "-o", "/dev/stdout"], stdout=out, check=True)
+            subprocess.run([sys.executable, ROOT / "plots", "report", TABLE1, "-o", "/dev/stdout"], stdout=out, check=True)
             out.seek(0)
             text = out.read()
         self.assertTrue(text.startswith(b"before\n<!DOCTYPE html>"), text[:40])
@@ -187,11 +187,11 @@ class Outputs(InFolder):
             self.assertEqual(path.read_bytes(), TABLE1.read_bytes())
 
     def test_a_folder_is_made_for_pictures_and_not_for_a_page(self) -> None:
-        self.make(0, "table1.py", self.folder / "a" / "b")
+        self.make(0, "figures --only table1", self.folder / "a" / "b")
         self.assert_made(self.folder / "a" / "b" / "table1.svg")
-        self.assertIn("No such file or directory", self.make(3, "report.py", self.folder / "c" / "r.html"))
+        self.assertIn("there is no folder", self.make(3, "__main__.py report", self.folder / "c" / "r.html"))
         self.assertFalse((self.folder / "c").exists())
-        self.assertIn("cannot be made: ", self.make(3, "table1.py", self.folder / "a" / "b" / "table1.svg" / "d"))
+        self.assertIn("cannot be made: ", self.make(3, "figures --only table1", self.folder / "a" / "b" / "table1.svg" / "d"))
 
 
 if __name__ == "__main__":

@@ -10,17 +10,16 @@ import tempfile
 import unittest
 from typing import Any
 
-import base  # first: it adds plots to sys.path
+import base  # first: it adds the source root to sys.path
 from base import GOLDEN, ROOT, Raw, run_of
 
-import report
-import results
-import tables
-from cells import Cell
-from commands import show
-from console import accuracy, paper, stress, tree_costs
-from console import cells as cells_page
-from tables import Table, counted, duration, exact, size
+from plots.commands import show
+from plots.console import accuracy_table, cells as cells_page, paper, stress_table, tree_costs
+from plots.page import report
+from plots.read import results
+from plots.read.cells import Cell
+from plots.words import tables
+from plots.words.tables import Table, counted, duration, exact, size
 
 
 class OfTables(unittest.TestCase):
@@ -49,7 +48,7 @@ class OfNumbers(unittest.TestCase):
 
 def page(*cells: Raw) -> list[list[str]]:
     """Returns the words of each line."""
-    return [line.split() for line in accuracy.text(run_of(*cells)).splitlines()]
+    return [line.split() for line in accuracy_table.text(run_of(*cells)).splitlines()]
 
 
 def on_axis(axis: str, method: str, counters: dict[str, float], *samples: dict[str, int]) -> Raw:
@@ -284,15 +283,15 @@ class OfTreeCosts(unittest.TestCase):
 class OfGoldenFiles(unittest.TestCase):
     def test_the_axes_and_what_stress_found_have_their_pages(self) -> None:
         axes = results.everything(GOLDEN / "accuracy.json")
-        self.assertEqual(show.pages(axes), accuracy.text(axes))
-        self.assertEqual(sorted(set(re.findall(r"^seed \d+$", accuracy.text(axes), re.M))), ["seed 1"])
-        self.assertIn("guigue-f64: 8,000 missed and 40 false of 150,000 pairs, wrong in 2 of 3 classes\n", accuracy.text(axes))
-        self.assertRegex(accuracy.text(axes), r"\ngeneric +filter-f64\+exact +50,000 +20,000 +0 +0 +0.0 % +19.30 +0.41  agrees\n")
-        self.assertRegex(accuracy.text(axes), r"\nunc_cloth_ball +input 8 bits +2 +990 us +1,600,000 +158,000 +26,000 +700,000  counted\n")
-        self.assertEqual(accuracy.text(results.everything(GOLDEN / "table1.json")), "")
+        self.assertEqual(show.pages(axes), accuracy_table.text(axes))
+        self.assertEqual(sorted(set(re.findall(r"^seed \d+$", accuracy_table.text(axes), re.M))), ["seed 1"])
+        self.assertIn("guigue-f64: 8,000 missed and 40 false of 150,000 pairs, wrong in 2 of 3 classes\n", accuracy_table.text(axes))
+        self.assertRegex(accuracy_table.text(axes), r"\ngeneric +filter-f64\+exact +50,000 +20,000 +0 +0 +0.0 % +19.30 +0.41  agrees\n")
+        self.assertRegex(accuracy_table.text(axes), r"\nunc_cloth_ball +input 8 bits +2 +990 us +1,600,000 +158,000 +26,000 +700,000  counted\n")
+        self.assertEqual(accuracy_table.text(results.everything(GOLDEN / "table1.json")), "")
         found = results.everything(GOLDEN / "stress.json")
-        self.assertEqual(show.pages(found), stress.text(found))
-        self.assertTrue(stress.text(found).endswith("9 cells of ours, all right\n"))
+        self.assertEqual(show.pages(found), stress_table.text(found))
+        self.assertTrue(stress_table.text(found).endswith("9 cells of ours, all right\n"))
 
     def test_what_stress_found_wrong_of_ours_is_told_at_the_end(self) -> None:
         found = results.everything(GOLDEN / "stress.json")
@@ -300,7 +299,7 @@ class OfGoldenFiles(unittest.TestCase):
         for one, verdict in ((first, "broken"), (second, "refused")):
             one["findings"] = {"pairs": {"verdict": verdict, "checked": 9, "wrong": 5, "missed": 2, "detail": "why"}}
         where = [f"{one['family']}: {one['scene']}, {one['system']}, pairs: why" for one in (first, second)]
-        text = stress.text(found)
+        text = stress_table.text(found)
         self.assertTrue(text.endswith(f"\nWRONG {where[0]}\nrefused {where[1]}\n9 cells of ours, 1 wrong, 1 refused\n"))
         self.assertRegex(text, rf"(?m)^{re.escape(first['system'])} .* -2 \+3")
 

@@ -7,15 +7,12 @@ import random
 import re
 import unittest
 
-from base import ROOT, InFolder, golden  # first: it adds plots to sys.path
+from base import ROOT, InFolder, golden  # first: it adds the source root to sys.path
 
-import figure
-import labels
-import names
-import pareto
-import pareto_orders
-import results
-import style
+from plots.draw import figure, labels, style
+from plots.figures import pareto_orders
+from plots.read import pareto, results
+from plots.words import names
 from matplotlib.text import Text
 
 ORDERS = names.ORDERS

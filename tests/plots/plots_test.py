@@ -6,26 +6,16 @@ import pathlib
 import re
 import unittest
 
-from base import ALL_CASES, GOLDEN, ROOT, InFolder, golden  # first: it adds plots to sys.path
+from base import ALL_CASES, GOLDEN, ROOT, InFolder, golden  # first: it adds the source root to sys.path
 
-import cell_map
-import fig8
-import figure
-import frames
-import names
-import output
-import overview
-import pipelines
-import results
-import roofline
-import scaling
-import style
-import swept
-import table1
-import tables
-from cells import Cell
+from plots.draw import cell_map, figure, pipelines, style
+from plots.figures import fig8, frame_bars, overview, roofline, scaling, swept_bars, table1
+from plots.files import output
+from plots.read import results
+from plots.read.cells import Cell
+from plots.words import names, tables
 from PIL import Image
-from style import plt
+from plots.draw.style import plt
 
 
 class Scripts(InFolder):
@@ -41,16 +31,16 @@ class Scripts(InFolder):
                                               "rebuild", "pairs", "families", "quality", "table1")}
         figures |= {"accuracy": tuple(f"accuracy-{axis}" for axis in axes), "table2": ("table2", "table2-fig9", "table2-fig10")}
         files = [*figures, "headlines"] if ALL_CASES else ["table1", "table2", "headlines"]  # .ci/run draws all by `reproduce all`
-        self.made("all.py", *(GOLDEN / f"{file}.json" for file in files), "--out", self.folder / "out")
+        self.made("figures", *(GOLDEN / f"{file}.json" for file in files), "--out", self.folder / "out")
         pictures = {picture for file in files for picture in figures.get(file, ())}
         for picture in pictures:
             self.assert_pictures(picture)
         self.assertEqual({path.stem for path in (self.folder / "out").iterdir()}, {*pictures, "headlines-overview"})  # a small one
         self.assert_says_what_a_reader_must_know(self.folder / "out" / "table1.svg")
 
-    def test_a_script_draws_what_all_draws_byte_for_byte(self) -> None:
-        for script, file, picture in (("table1.py", "table1", "table1"), ("fig9.py", "table2", "table2-fig9"), ("frames.py", "pairs", "pairs")):
-            for folder, of in (("one", script), ("all", "all.py")):
+    def test_one_figure_alone_is_the_same_as_among_all_byte_for_byte(self) -> None:
+        for name, file, picture in (("table1", "table1", "table1"), ("fig9", "table2", "table2-fig9"), ("pairs", "pairs", "pairs")):
+            for folder, of in (("one", f"figures --only {name}"), ("all", "figures")):
                 self.made(of, GOLDEN / f"{file}.json", "--out", self.folder / folder)
             for end in ("png", "svg"):
                 one, two = ((self.folder / folder / f"{picture}.{end}").read_bytes() for folder in ("one", "all"))
@@ -64,7 +54,7 @@ class Scripts(InFolder):
 
     def test_a_wrong_answer_makes_no_picture(self) -> None:
         self.document["cells"][4]["check"] = {"verdict": "differs", "detail": "box 7"}
-        done = self.made("all.py", self.written(self.document), "--out", self.folder / "out", code=3)
+        done = self.made("figures", self.written(self.document), "--out", self.folder / "out", code=3)
         self.assertIn("gave a wrong answer on bunny: box 7", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
@@ -74,7 +64,7 @@ class Scripts(InFolder):
         first["builder"]["options"] = {"order": "morton30", "leaves": "mesh"}
         second["builder"]["options"] = {"order": "morton30", "leaves": "sorted"}
         self.document["cells"] = [first, second]
-        self.made("table1.py", self.written(self.document), "--out", self.folder / "out")
+        self.made("figures --only table1", self.written(self.document), "--out", self.folder / "out")
         text = (self.folder / "out" / "table1.svg").read_text(encoding="utf-8")
         self.assertIn("oibvh-multi (mesh leaves)", text)
         self.assertIn("oibvh-multi (sorted leaves)", text)
@@ -85,7 +75,7 @@ class Scripts(InFolder):
             document = golden(name)
             for cell in document["cells"]:
                 cell["experiment"] = "one-of-mine"
-            done = self.made("all.py", self.written(document, "mine.json"), "--out", self.folder / name)
+            done = self.made("figures", self.written(document, "mine.json"), "--out", self.folder / name)
             self.assertEqual({path.stem for path in (self.folder / name).iterdir()} & set(figures), set(figures), done.stdout)
 
     def test_a_file_without_a_figure_is_told_what_it_holds(self) -> None:
@@ -94,10 +84,10 @@ class Scripts(InFolder):
             cell.pop("samples", None)
             cell.update(status="skipped", reason="too large")
         path = self.written(self.document, "no.json")
-        done = self.made("all.py", path, "--out", self.folder / "out", code=3)
+        done = self.made("figures", path, "--out", self.folder / "out", code=3)
         self.assertIn(f"{path}: there is no figure of what it holds: smoke ({len(self.document['cells'])} cells)", done.stderr)
         (self.folder / "table1.json").unlink(missing_ok=True)
-        done = self.run_script("all.py", self.folder, "--out", self.folder / "out")
+        done = self.run_script("figures", self.folder, "--out", self.folder / "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""), "in a folder it is passed over")
 
     def test_a_file_without_a_figure_of_its_own_gets_bars_of_medians(self) -> None:
@@ -111,7 +101,7 @@ class Scripts(InFolder):
             wanted = sorted((cell.median_ns(), cell.pipeline) for cell in run.cells if cell.scene == scene and cell.has_times)
             self.assertEqual([(ns, name) for name, ns, _ in panel], wanted)
         path = self.written(self.document, "mine.json")
-        done = self.made("all.py", path, "--out", self.folder / "out")
+        done = self.made("figures", path, "--out", self.folder / "out")
         self.assertEqual(done.stdout.split(), [str(self.folder / "out" / f"mine-overview.{end}") for end in ("png", "svg")])
         text = (self.folder / "out" / "mine-overview.svg").read_text(encoding="utf-8")
         self.assertIn("bunny, build, mine", text)
@@ -133,13 +123,13 @@ class Scripts(InFolder):
     def test_cells_of_several_devices_make_no_picture(self) -> None:
         source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}
         self.document["merged_from"] = [source, source | {"id": "b", "driver": "2"}]
-        done = self.made("all.py", self.written(self.document), "--out", self.folder / "out", code=3)
+        done = self.made("figures", self.written(self.document), "--out", self.folder / "out", code=3)
         self.assertIn("merged from several devices, which no figure tells apart: one, driver 1; one, driver 2", done.stderr)
 
     def test_other_costs_are_named_and_not_held_against_the_papers(self) -> None:
         document = golden("table4")
         document["run"]["node_costs"] = {"inner": 2, "triangle": 0.5}
-        self.made("table4.py", self.written(document, "table4.json"), "--out", self.folder / "out")
+        self.made("figures --only table4", self.written(document, "table4.json"), "--out", self.folder / "out")
         text = (self.folder / "out" / "table4.svg").read_text(encoding="utf-8")
         self.assertIn("An inner node costs 2.0, a triangle 0.5", text)
         self.assertNotIn("paper", text)
@@ -153,7 +143,7 @@ class Frames(InFolder):
         return svg.read_text(encoding="utf-8")
 
     def test_tables_say_what_a_reader_must_know(self) -> None:
-        text = self.drawn("table2.py", "table2")
+        text = self.drawn("figures --only table2", "table2")
         for words in ("cloth-ball* (unc_cloth_ball): 92,230 triangles, 2 frames", "* was not there", "Invented GPU",
                       "Wang et al. 2018, printed (GTX 1080, another machine)", "n-body, between objects: 146,480 triangles, "
                       "1 frame", "bvtt (jump 2) over oibvh-multi", "front over oibvh-multi, 1 of 2 frames",
@@ -178,7 +168,7 @@ class Frames(InFolder):
         self.assertEqual([cell.frame for cell in ours.later.cells], [1])
         self.assertEqual(ours.first_ms, ours.cells[0].median_ns() * 1e-6)
         self.assertEqual(ours.label, "group over oibvh-multi (hilbert30, sorted leaves), contacts sat-f32 †")
-        text = self.drawn("table2.py", "table2", document)
+        text = self.drawn("figures --only table2", "table2", document)
         for words in (f", first {tables.three_digits(ours.first_ms)}<", "0 missed, 11 false of 200 found"):
             self.assertIn(words, text)
         self.assertEqual(pipelines.apart({"": [ours]}), "over frames after the first")
@@ -189,26 +179,26 @@ class Frames(InFolder):
         for cell in document["cells"]:
             cell["scene"] |= {"name": "mine"}
             cell["scene"].pop("stand_in_for", None)
-        text = self.drawn("table2.py", "table2", document)
+        text = self.drawn("figures --only table2", "table2", document)
         self.assertIn("mine: ", text)
         for words in ("was not there", "printed", "mine*"):
             self.assertNotIn(words, text)
 
     def test_libraries_are_said_to_be_on_the_host_and_long_bars_to_be_shortened(self) -> None:
-        text = self.drawn("family_bars.py", "families")
+        text = self.drawn("figures --only families", "families")
         for words in ("On the host and its clock: embree, fcl-refit (Invented CPU).", "cloth-ball* (unc_cloth_ball)",
                       "implicit trees: leaf over oibvh-multi", "shortened to 12 times"):
             self.assertIn(words, text)
 
     def test_the_most_pairs_that_wait_are_of_those_that_count_them(self) -> None:
-        text = self.drawn("fig10.py", "table2")
+        text = self.drawn("figures --only fig10", "table2")
         self.assertIn("784,955 for 738,840 pairs", text)  # of the second of two frames
         self.assertIn("* was not there", text)
         self.assertNotIn("leaf over oibvh-multi<", text)
 
     def test_a_wrong_answer_makes_no_picture(self) -> None:
-        scripts = {"table2": ("table2.py", "fig9.py", "fig10.py", "all.py"), "table3": ("table3.py",),
-                   "families": ("family_bars.py",)}
+        scripts = {"table2": ("figures --only table2", "figures --only fig9", "figures --only fig10", "figures"),
+                   "table3": ("figures --only table3",), "families": ("figures --only families",)}
         for name, those in scripts.items():
             document = golden(name)
             document["cells"][3]["check"] = {"verdict": "differs", "detail": "pair 7"}
@@ -227,13 +217,13 @@ class Frames(InFolder):
         wrong["check"] = {"verdict": "differs", "detail": "pair 7"}
         wrong["outside"] = {"name": wrong["collider"]["name"], "library": "Mine", "version": "1", "licence": "MIT", "device": "host",
                             "file": "mine.so", "as": "plugin"}
-        text = self.drawn("family_bars.py", "rivals", document)
+        text = self.drawn("figures --only rivals", "rivals", document)
         self.assertIn("wrong answer: pair 7", text)
         self.assertIn("written pairs of overlapping boxes", text)
 
     def test_a_file_without_frames_makes_no_picture(self) -> None:
-        for script in ("table2.py", "fig9.py", "fig10.py", "frames.py"):
-            done = self.made(script, GOLDEN / "table1.json", "--out", self.folder / "out", code=3)
+        for name in ("table2", "fig9", "fig10", "pairs"):
+            done = self.made(f"figures --only {name}", GOLDEN / "table1.json", "--out", self.folder / "out", code=3)
             self.assertIn("no measured frame of ", done.stderr)
             self.assertFalse((self.folder / "out").exists())
 
@@ -252,17 +242,17 @@ class Frames(InFolder):
         stages = sample["stages"]["items"]["properties"]["stage"]["enum"]
         of_frames = set(stages) - {"sum"}  # which is on an axis of accuracy
         self.assertEqual(sorted(names.STAGES), sorted(of_frames))
-        self.assertEqual([those for those, _ in frames.PARTS], list(names.PARTS))
+        self.assertEqual([those for those, _ in frame_bars.PARTS], list(names.PARTS))
         for name in ("table2", "families", "rebuild"):
             for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
                 for one in shown:
-                    parts = sum(width for _, width in frames.parts_of(one))
+                    parts = sum(width for _, width in frame_bars.parts_of(one))
                     self.assertAlmostEqual(parts, one.frame_ms().mean(), places=9)
 
     def test_parts_are_named_after_their_stages_as_tables_name_them(self) -> None:
         shown = [one for those in pipelines.of(results.load(GOLDEN / "rebuild.json"), "rebuild").values() for one in those]
         stages = {stage for one in shown for cell in one.cells for sample in cell.samples for stage in sample}
-        words = [word for patch in frames.legend_of(shown) for word in patch.get_label().split(" + ")]
+        words = [word for patch in frame_bars.legend_of(shown) for word in patch.get_label().split(" + ")]
         self.assertEqual(set(words) - {names.BETWEEN}, stages)
 
     def test_pipelines_of_one_scene_are_told_apart(self) -> None:
@@ -460,7 +450,7 @@ class Roofline(InFolder):
 class Swept(InFolder):
     def test_has_a_panel_a_scene_and_two_bars_a_pipeline_of_both_its_queries(self) -> None:
         run = results.load(GOLDEN / "swept.json")
-        panels = swept.draw(run).axes
+        panels = swept_bars.draw(run).axes
         self.assertEqual([axes.get_title("left") for axes in panels], [
             "unc_cloth_ball, 1 step: 3.7 M pairs, 100 for each of the ground truth",
             "funnel* (cloth-funnel:18484), 1 step: 0.7 M pairs"])
@@ -480,7 +470,7 @@ class Swept(InFolder):
     def test_frames_that_are_not_swept_make_no_picture(self) -> None:
         for cell in self.document["cells"]:
             cell.pop("swept", None)
-        self.assertEqual(self.run_script("swept.py", self.written(self.document), "--out", self.folder).returncode, 3)
+        self.assertEqual(self.run_script("figures --only swept", self.written(self.document), "--out", self.folder).returncode, 3)
 
 
 class Looks(InFolder):
@@ -505,14 +495,14 @@ class Looks(InFolder):
         style.set_up()
         run, heights = results.load(GOLDEN / "rebuild.json"), []
         for remarks in (2 * ("a remark",), 20 * ("a remark",)):
-            drawing = frames.draw(run, "rebuild", remarks)
+            drawing = frame_bars.draw(run, "rebuild", remarks)
             drawing.draw_without_rendering()
             heights.append(drawing.axes[0].get_window_extent().height)
         self.assertAlmostEqual(heights[0], heights[1], delta=0.1 * heights[0])
 
     def test_pictures_have_few_colours(self) -> None:
         style.set_up()
-        png, _ = style.save(frames.draw(results.load(GOLDEN / "rebuild.json"), "rebuild"), pathlib.Path(self.folder), "one", [], False)
+        png, _ = style.save(frame_bars.draw(results.load(GOLDEN / "rebuild.json"), "rebuild"), pathlib.Path(self.folder), "one", [], False)
         with Image.open(png) as picture:
             self.assertEqual((picture.mode, picture.size[0]), ("P", 1400))
         self.assertTrue(output.is_picture(png.read_bytes()[:output.HEAD_BYTES]))

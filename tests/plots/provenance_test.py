@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Tests that result files speak of the kernels that are there, or are listed as older (plots/provenance.py)."""
+"""Tests that result files speak of the kernels that are there, or are listed as older (plots/evidence/provenance.py)."""
 import json
 import pathlib
 import subprocess
 import unittest
 from unittest import mock
 
-from base import ROOT, InFolder, cell, document  # first: it adds plots to sys.path
+from base import ROOT, InFolder, cell, document  # first: it adds the source root to sys.path
 
-import provenance
+from plots.evidence import provenance
 
 # results/older.json has for each reason the files that do not speak of the kernels that are there. The list may only shrink: who
 # measures a file again takes it off and lowers this number. Who changes a kernel and cannot measure raises it, and says so.

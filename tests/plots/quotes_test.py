@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""Tests that tables and numbers in documents are those of the result files that they come from (plots/quotes.py)."""
+"""Tests that tables and numbers in documents are those of the result files that they come from (plots/evidence/quotes.py)."""
 import collections
 import pathlib
 import re
 import unittest
 
-from base import ROOT, InFolder, cell  # first: it adds plots to sys.path
+from base import ROOT, InFolder, cell  # first: it adds the source root to sys.path
 
-import headlines
-import quotes
-from cells import Cell
+from plots.evidence import headlines, quotes
+from plots.read.cells import Cell
 
 # They name result files as examples or for words, and quote no number of one.
 NO_NUMBER_OF_A_FILE = {"docs/report.md"}
@@ -22,7 +21,7 @@ class TheDocuments(unittest.TestCase):
 
     def test_quote_their_files(self) -> None:
         findings = [finding for one in self.documents for finding in one.findings()]
-        self.assertEqual(findings, [], "\n".join(["", *findings, "plots/quotes.py --fill writes the files' tables and numbers"]))
+        self.assertEqual(findings, [], "\n".join(["", *findings, "python3 -m plots.evidence.quotes --fill writes the files' tables and numbers"]))
         self.assertGreater(sum(len(one.made) for one in self.documents), 30)
 
     def test_have_a_list_if_they_name_a_result_file(self) -> None:

@@ -11,10 +11,10 @@ import tempfile
 import unittest
 from unittest import mock
 
-from base import GOLDEN, ROOT  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT  # first: it adds the source root to sys.path
 
-import results
-from commands import reproduce
+from plots.commands import reproduce
+from plots.read import results
 
 # Its exit codes are in CODES, such as "table1=1 view=3". It appends each call to the file "calls".
 PROGRAM = f"""#!{sys.executable}
@@ -65,7 +65,7 @@ class OfReproduce(unittest.TestCase):
         order = [said.index(part) for part in ("device: ", "% of copy", "written: ./o/table1.json", "nothing was drawn, ")]
         self.assertEqual(order, sorted(order))
         self.assertTrue(said.endswith("has no module matplotlib; where Python and matplotlib are, draw it with: "
-                                      "python3 plots/table1.py ./o/table1.json --out ./o/\n"), said)
+                                      "python3 plots/figures ./o/table1.json --only table1 --out ./o/\n"), said)
         self.assertEqual(self.calls(), ["facts --device 0", "run table1 --out ./o/table1.json --quiet --sah-inner 2.0 "
                                         "--sah-triangle 1 --quick --epo --device 0"])
 
@@ -74,7 +74,7 @@ class OfReproduce(unittest.TestCase):
         runs = [call.split()[1] for call in self.calls() if call.startswith("run ")]
         self.assertEqual(runs, ["table1", "fig8", "table2", "table3", "table4", "fig13"])
         for figure in ("fig9", "fig10"):
-            self.assertIn(f"python3 plots/{figure}.py out/table2.json ", done.stdout)
+            self.assertIn(f"python3 plots/figures out/table2.json --only {figure} ", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], f"no page was made: {sys.executable} has no module matplotlib; elsewhere: "
                                                        "bvhbench report out/*.json -o out/report.html")
         self.assertEqual(done.stderr, "")
@@ -125,7 +125,7 @@ class OfReproduce(unittest.TestCase):
 class OfThePage(unittest.TestCase):
     def page(self, end: BaseException | int) -> str:
         arguments = reproduce.parser().parse_args(["all"])
-        with mock.patch.dict(sys.modules, {"commands.report": mock.Mock(main=mock.Mock(side_effect=[end]))}), \
+        with mock.patch.dict(sys.modules, {"plots.commands.report": mock.Mock(main=mock.Mock(side_effect=[end]))}), \
                 mock.patch("sys.stdout", io.StringIO()) as said:
             self.code = reproduce.page(arguments, ["out/table1.json"], "out/report.html")
         return said.getvalue()

@@ -9,15 +9,15 @@ import unittest
 from typing import Any
 
 ROOT = pathlib.Path(sys.argv.pop())
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.insert(0, str(ROOT))
 
-import clusters
-import ranks
-from comparing import cluster as comparing
-from comparing.refusals import Rules
-from console import cluster as console
-from json_files import Refused
-from output import WrongUsage
+from plots.comparing import ranks as comparing
+from plots.comparing.refusals import Rules
+from plots.console import rank_table as console
+from plots.figures import rank_curves
+from plots.files.json_files import Refused
+from plots.files.output import WrongUsage
+from plots.read import rank_files
 
 
 BILLION, HALO = ROOT / "results" / "h200" / "cluster-billion.json.xz", ROOT / "results" / "pocl-2-cores" / "cluster-halo.json.xz"
@@ -25,7 +25,7 @@ BILLION, HALO = ROOT / "results" / "h200" / "cluster-billion.json.xz", ROOT / "r
 
 def on_four() -> dict:
     """Returns a result of `cluster` on four ranks."""
-    return clusters.read(BILLION)["runs"][0]["result"]
+    return rank_files.read(BILLION)["runs"][0]["result"]
 
 
 def cell(count: int, triangles: int, frame_ns: int, sent: int) -> dict:
@@ -43,27 +43,27 @@ def file(kind: str, *cells: dict) -> dict:
 
 class Model(unittest.TestCase):
     def test_strong_is_a_share_of_the_work_and_waits_and_messages(self) -> None:
-        one, two = clusters.measured(file("strong", cell(2, 8_000_000, 6_000_000, 25_000), cell(1, 8_000_000, 10_000_000, 0)))
+        one, two = rank_files.measured(file("strong", cell(2, 8_000_000, 6_000_000, 25_000), cell(1, 8_000_000, 10_000_000, 0)))
         self.assertEqual((one["count"], two["count"]), (1, 2))  # whatever their order in the file
-        self.assertAlmostEqual(ranks.model_s(one, two, 1, False), 10e-3)
-        self.assertAlmostEqual(ranks.model_s(one, two, 2, False), 5e-3 + 100e-6 + (25_000 * 40 + 64 * 24) / 5e9, 9)
+        self.assertAlmostEqual(rank_curves.model_s(one, two, 1, False), 10e-3)
+        self.assertAlmostEqual(rank_curves.model_s(one, two, 2, False), 5e-3 + 100e-6 + (25_000 * 40 + 64 * 24) / 5e9, 9)
         # A quarter of the triangles a rank has half the surface.
-        self.assertAlmostEqual(ranks.model_s(one, two, 8, False), 1.25e-3 + 100e-6 + (12_500 * 40 + 7 * 64 * 24) / 5e9, 9)
+        self.assertAlmostEqual(rank_curves.model_s(one, two, 8, False), 1.25e-3 + 100e-6 + (12_500 * 40 + 7 * 64 * 24) / 5e9, 9)
 
     def test_weak_has_the_same_share_on_all(self) -> None:
-        one, two = clusters.measured(file("weak", cell(1, 4_000_000, 10_000_000, 0), cell(2, 8_000_000, 11_000_000, 25_000)))
+        one, two = rank_files.measured(file("weak", cell(1, 4_000_000, 10_000_000, 0), cell(2, 8_000_000, 11_000_000, 25_000)))
         for count in (2, 8, 64):
-            self.assertAlmostEqual(ranks.model_s(one, two, count, True), 10e-3 + 100e-6 + (25_000 * 40 + (count - 1) * 64 * 24) / 5e9, 9)
+            self.assertAlmostEqual(rank_curves.model_s(one, two, count, True), 10e-3 + 100e-6 + (25_000 * 40 + (count - 1) * 64 * 24) / 5e9, 9)
 
     def test_stages_are_medians_of_each_rank(self) -> None:
-        run, = clusters.measured(file("strong", cell(3, 1000, 1, 1)))
-        self.assertEqual(ranks.stages_s(run), {"build": [0.001, 0.002, 0.003]})
+        run, = rank_files.measured(file("strong", cell(3, 1000, 1, 1)))
+        self.assertEqual(rank_curves.stages_s(run), {"build": [0.001, 0.002, 0.003]})
 
     def test_refuses_to_draw_what_is_not_there(self) -> None:
         failed = {"scene": "torus:1", "ranks": 1, "partition": "rcb", "status": "failed", "reason": "no device"}
         for cells, why in (((failed,), "no cell was measured"), ((failed, cell(2, 1000, 1, 1)), "no cell of one rank")):
             with self.assertRaisesRegex(Refused, why):
-                ranks.draw(file("strong", *cells))
+                rank_curves.draw(file("strong", *cells))
 
 
 class Table(unittest.TestCase):
@@ -93,10 +93,10 @@ class Table(unittest.TestCase):
             rank["samples"] = []
         self.assertIn("ranks shared a device: there are no times\n", console.text(document))
         with self.assertRaisesRegex(Refused, "no times"):
-            ranks.draw(document)
+            rank_curves.draw(document)
 
     def test_simulated_ranks_are_summed_up(self) -> None:
-        one = clusters.read(HALO)["runs"][-1]["result"]
+        one = rank_files.read(HALO)["runs"][-1]["result"]
         text = console.text({key: value for key, value in one.items() if key not in ("part_ns", "model_ns")})
         most = max(rank["halo_received_count"] for rank in one["ranks"])
         self.assertIn(f"receives {most:,} triangles at most", text)
@@ -105,13 +105,13 @@ class Table(unittest.TestCase):
                       console.text(one | {"part_ns": 2_000_000, "model_ns": 3_000_000}))
 
     def test_refuses_a_file_that_breaks_its_schema(self) -> None:
-        document = clusters.read(HALO)
+        document = rank_files.read(HALO)
         document["runs"][0]["result"]["ranks"][0]["halo_sent_count"] = -1
         with tempfile.NamedTemporaryFile("w", suffix=".json") as broken:
             json.dump(document, broken)
             broken.flush()
             with self.assertRaisesRegex(Refused, r"not a file of `bvhbench cluster`: ranks\[0\].halo_sent_count is less than 0"):
-                clusters.read(broken.name)
+                rank_files.read(broken.name)
 
 
     def test_refuses_ranks_and_samples_that_are_uneven(self) -> None:
@@ -126,12 +126,12 @@ class Table(unittest.TestCase):
                 json.dump(document, broken)
                 broken.flush()
                 with self.assertRaisesRegex(Refused, words):
-                    clusters.read(broken.name)
+                    rank_files.read(broken.name)
 
 
 class Compared(unittest.TestCase):
     def setUp(self) -> None:
-        self.first = clusters.read(ROOT / "results" / "h200" / "cluster-strong.json.xz")["runs"][1]["result"]
+        self.first = rank_files.read(ROOT / "results" / "h200" / "cluster-strong.json.xz")["runs"][1]["result"]
         self.first["run"]["program"]["dirty"] = False
         self.second = copy.deepcopy(self.first)
 
@@ -192,7 +192,7 @@ class Compared(unittest.TestCase):
             self.compared()
 
     def test_files_of_scale_are_compared_cell_by_cell(self) -> None:
-        self.first, self.second = clusters.read(HALO), clusters.read(HALO)
+        self.first, self.second = rank_files.read(HALO), rank_files.read(HALO)
         self.assertRegex("%s%d" % self.compared(allow_dirty=True), r"(warning: .*\n)+no regression\n0$")
         self.second["runs"][0]["result"]["ranks"][0]["halo_sent_count"] += 1
         del self.second["runs"][1]

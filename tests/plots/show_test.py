@@ -10,14 +10,11 @@ import tempfile
 import unittest
 from typing import Any
 
-from base import GOLDEN, ROOT, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT, Raw, cell, document, run_of, stage  # first: it adds the source root to sys.path
 
-import results
-import savings
-from cells import Cell
-from console import builders, cells, frames, skips, swept, trees
-from console import cell as one_cell
-from console import run as run_page
+from plots.console import builder_table, cell as one_cell, cells, frame_table, run as run_page, skip_table, swept_table, trees
+from plots.read import results, savings
+from plots.read.cells import Cell
 
 
 def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **collider: Any) -> Raw:
@@ -122,23 +119,23 @@ class OfCells(unittest.TestCase):
 class OfFrames(unittest.TestCase):
     def test_those_of_a_pipeline_are_a_line_with_the_mean_and_deviation_of_their_medians(self) -> None:
         absent = frame(1, ns=3000000, jump=0)  # a file may omit an option with its default value
-        titles, line = frames.text(run_of(frame(0), absent)).splitlines()
+        titles, line = frame_table.text(run_of(frame(0), absent)).splitlines()
         self.assertEqual(titles.split(), "scene pipeline frames first ms ± broad up back MB pairs contacts peak BVTT verdict".split())
         self.assertEqual(line.split(), "bunny group over oibvh-multi 2 1.000 3.000 0.000 1.500 1,000 agrees".split())
-        three = frames.text(run_of(frame(0), frame(1), absent | {"scene": {**absent["scene"], "frame": 2}})).splitlines()[1]
+        three = frame_table.text(run_of(frame(0), frame(1), absent | {"scene": {**absent["scene"], "frame": 2}})).splitlines()[1]
         self.assertEqual(three.split()[4:9], ["3", "1.000", "2.000", "1.000", "1.000"])  # over the last two
         copied = frame(0)
         copied["counters"] |= {"upload_ns": 1234000, "read_back_ns": 5000}
-        self.assertEqual(frames.text(run_of(copied)).splitlines()[1].split()[5:9], ["1.000", "0.000", "0.500", "1.234"])
-        self.assertEqual(frames.text(run_of(cell())), "")
-        blank = frames.text(run_of(frame(0), {**frame(1), "status": "failed", "reason": "no memory"})).splitlines()[1]
+        self.assertEqual(frame_table.text(run_of(copied)).splitlines()[1].split()[5:9], ["1.000", "0.000", "0.500", "1.234"])
+        self.assertEqual(frame_table.text(run_of(cell())), "")
+        blank = frame_table.text(run_of(frame(0), {**frame(1), "status": "failed", "reason": "no memory"})).splitlines()[1]
         self.assertEqual(blank.split()[4:], ["2", "1.000", "1,000", "failed:", "no", "memory"])
 
     def test_that_round_have_times_and_their_errors_of_all_frames(self) -> None:
         counted = [{**frame(number), "check": {"verdict": "counted"}} for number in (0, 1)]
         for one, missed, false in zip(counted, (1, 2), (30, 400)):
             one["counters"] |= {"missed_count": missed, "false_count": false}
-        line = frames.text(run_of(*counted)).splitlines()[1]
+        line = frame_table.text(run_of(*counted)).splitlines()[1]
         self.assertIn("1.000", line)
         self.assertTrue(line.endswith("counted: 3 missed, 430 false"), line)
 
@@ -156,19 +153,19 @@ class OfFrames(unittest.TestCase):
     def test_of_collide_name_their_pipeline_once_and_end_with_a_mean(self) -> None:
         one, other = frame(0), frame(1, ns=3000000)
         other["counters"]["pairs_count"] = 2000
-        name, titles, *rows = frames.each(run_of(one, other)).splitlines()
+        name, titles, *rows = frame_table.each(run_of(one, other)).splitlines()
         self.assertEqual((name, titles.split()[:2]), ("group over oibvh-multi on bunny", ["frame", "median"]))
         self.assertEqual([row.split()[0] for row in rows], ["0", "1", "mean"])
         self.assertEqual(rows[-1].split(), "mean of later 3.00 ms 2,000".split())
-        self.assertNotIn("mean", frames.each(run_of(one)))
-        self.assertNotIn("mean", frames.each(run_of(one, wrong(other))), "a mean over some of the frames")
-        several = frames.each(run_of(one, frame(1), frame(0, jump=2), frame(1, jump=2)))
+        self.assertNotIn("mean", frame_table.each(run_of(one)))
+        self.assertNotIn("mean", frame_table.each(run_of(one, wrong(other))), "a mean over some of the frames")
+        several = frame_table.each(run_of(one, frame(1), frame(0, jump=2), frame(1, jump=2)))
         self.assertEqual(several.count("mean"), 2)
 
     def test_the_paper_stands_below_a_scene_that_it_has(self) -> None:
         raw = frame()
         raw["scene"] |= {"name": "cloth-funnel:18484", "stand_in_for": "funnel"}
-        text = frames.text(run_of(raw), "table2")
+        text = frame_table.text(run_of(raw), "table2")
         self.assertIn("cloth-funnel:18484 for funnel", text)
         printed = [row for row in results.printed("table2")["rows"] if row["scene"] == "funnel"]
         self.assertEqual(re.findall(r"paper: .*?  +\d+ +([0-9.]+) ", text), [f"{row['frame_ms']:.3f}" for row in printed])
@@ -177,19 +174,19 @@ class OfFrames(unittest.TestCase):
     def test_a_rule_is_held_to_the_same_frame_with_it(self) -> None:
         without = frame(ns=3000000, no_skip="near")
         without["counters"] |= {"entered_count": 150046, "box_tests_count": 90000}
-        text = skips.text(run_of(frame(), without))
+        text = skip_table.text(run_of(frame(), without))
         self.assertEqual(text.splitlines()[2].split(),
                          "bunny 0 near 6,000 0 0 0 0 0 40,000 1.00 ms 3.00 ms 3.00 the same group over oibvh-multi".split())
         without["check"]["pairs_hash"] = "00000000000000bb"
-        self.assertIn("NOT the same", skips.text(run_of(frame(), without)))
+        self.assertIn("NOT the same", skip_table.text(run_of(frame(), without)))
         saves_little = frame(ns=3000000, no_skip="near")
         for tests, is_noise in ((50040, True), (50060, False)):
             saves_little["counters"]["box_tests_count"] = tests
-            self.assertEqual("nothing to skip" in skips.text(run_of(frame(), saves_little)), is_noise)
-        self.assertEqual(skips.text(run_of(frame(1), without)), "")
+            self.assertEqual("nothing to skip" in skip_table.text(run_of(frame(), saves_little)), is_noise)
+        self.assertEqual(skip_table.text(run_of(frame(1), without)), "")
 
     def test_rules_of_the_experiment_have_a_row_a_pipeline_and_one_that_had_to_be_forced_says_so(self) -> None:
-        text, by_rule = skips.of_scenes(results.load(GOLDEN / "skips.json")).split("by rule:\n")
+        text, by_rule = skip_table.of_scenes(results.load(GOLDEN / "skips.json")).split("by rule:\n")
         _, titles, *rows = text.splitlines()
         self.assertEqual([re.split("  +", row) for row in by_rule.splitlines()[1:]], [
             ["near, forced", "n-body:61000:8", "1", "triangles", "80 %", "0.77"], ["apart", "n-body:61000:8", "1", "box tests", "94 %", "8.00"],
@@ -199,7 +196,7 @@ class OfFrames(unittest.TestCase):
         self.assertRegex(rows[0], r"apart .* 45,960 +1,500,000 .* 8\.0\d +the same +bvtt over oibvh-multi$")
         self.assertRegex(rows[1], r"near, forced +49,000 .* 0\.77 +the same +group over oibvh-multi$")
         self.assertEqual(rows[-1], "nothing to skip on n-body:61000:8: empty-queue")
-        self.assertEqual(skips.of_scenes(run_of(frame(), frame(no_skip="near"))), "", "of other experiments there is none")
+        self.assertEqual(skip_table.of_scenes(run_of(frame(), frame(no_skip="near"))), "", "of other experiments there is none")
 
     def test_a_rule_counts_where_it_skips_something(self) -> None:
         raws = [frame(number, ns=ns, no_skip=rule) for number, ns, rule in
@@ -213,24 +210,24 @@ class OfFrames(unittest.TestCase):
         leaf["collider"]["name"] = "leaf"
         build = cell(counters={"tree_bytes": 3000000, "scratch_bytes": 1000000, "device_peak_bytes": 5000000, "sah_cost": 20.5})
         every = [{**raw, "experiment": "builders"} for raw in (build, host, group, leaf, wrong(frame(ns=1)))]
-        _, titles, own, other = builders.text(run_of(*every)).splitlines()
+        _, titles, own, other = builder_table.text(run_of(*every)).splitlines()
         self.assertEqual(re.split("  +", own), ["bunny", "oibvh-multi", "device", "1440.5", "1440.5", "5.00 MB", "4.00 MB", "3.00 MB",
                                                 "20.50", "-", "1.000", "2.000", "leaf"])
         self.assertEqual(other.split()[-3:], ["-", "-", "-"])
-        self.assertEqual(builders.text(run_of(cell())), "")
+        self.assertEqual(builder_table.text(run_of(cell())), "")
 
     def test_queries_of_swept_boxes_are_added_up(self) -> None:
         pair = [frame(pairs_of=among) for among in ("between", "within")]
         for raw, pairs in zip(pair, ("vertex-face", "edge-edge")):
             raw["swept"] = {"pairs": pairs, "to_frame": 1, "primitives": 300}
         pair[0]["counters"] |= {"ground_truth_pairs": 10, "ground_truth_missed": 0}
-        _, *lines = swept.text(run_of(*pair)).splitlines()
+        _, *lines = swept_table.text(run_of(*pair)).splitlines()
         self.assertEqual([line.split() for line in lines], [
             "bunny 0 vertex-face group over oibvh-multi 300 1,000 0.500 1.000 1.0 10 0 100.0 agrees".split(),
             "bunny 0 edge-edge group over oibvh-multi 300 1,000 0.500 1.000 1.0 agrees".split(),
             "both 600 2,000 1.000 2.000 1.0".split()])
-        self.assertEqual(len(swept.text(run_of(pair[0])).splitlines()), 2)
-        self.assertEqual(frames.text(run_of(*pair)), "")
+        self.assertEqual(len(swept_table.text(run_of(pair[0])).splitlines()), 2)
+        self.assertEqual(frame_table.text(run_of(*pair)), "")
 
 
 class OfTrees(unittest.TestCase):

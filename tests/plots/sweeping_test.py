@@ -3,11 +3,11 @@
 import json
 import unittest
 
-import base  # noqa: F401  first: it adds plots to sys.path
+import base  # noqa: F401  first: it adds the source root to sys.path
 
-from commands import sweep
-from output import WrongUsage
-from sweeping import planned, product, sizes
+from plots.commands import sweep
+from plots.files.output import WrongUsage
+from plots.sweeping import planned, product, sizes
 
 BUILDERS, COLLIDERS, GENERATORS = ("perfect", "karras", "oibvh-wide4", "oibvh-multi"), ("leaf", "bvtt", "grid"), ("torus", "soup")
 USUAL = {"order": "morton30", "group_size": 0, "items": 0, "boxes": "f32", "leaves": "mesh"}

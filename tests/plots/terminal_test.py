@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Tests that tables fit a terminal and have colours there, and are whole and plain elsewhere."""
-import json
 import os
 import pty
 import re
@@ -8,11 +7,11 @@ import subprocess
 import sys
 import unittest
 
-from base import ROOT, InFolder, cell, document  # first: it adds plots to sys.path
+from base import ROOT, InFolder, cell, document  # first: it adds the source root to sys.path
 
-import output
-import terminal
-from tables import Table
+from plots.files import output
+from plots.words import terminal
+from plots.words.tables import Table
 
 CODES = re.compile("\x1b\\[[0-9;]*m")
 
@@ -151,8 +150,8 @@ class Show(InFolder):
 
 class Progress(unittest.TestCase):
     def test_is_silent_where_there_is_no_terminal(self) -> None:
-        done = subprocess.run([sys.executable, "-c", "import terminal; line = terminal.MovingLine(); line.show('1/2'); line.clear()"],
-                              cwd=ROOT / "plots", capture_output=True, check=True)
+        done = subprocess.run([sys.executable, "-c", "from plots.words import terminal; line = terminal.MovingLine(); line.show('1/2'); line.clear()"],
+                              cwd=ROOT, capture_output=True, check=True)
         self.assertEqual((done.stdout, done.stderr), (b"", b""))
 
 

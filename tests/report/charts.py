@@ -1,9 +1,7 @@
 """Tests that charts draw the values of the reader of result files, one mark for each cell, in the colours of figures."""
-import pareto
-import pareto_orders
-import pipelines
-import results
-import style
+from plots.draw import pipelines, style
+from plots.figures import pareto_orders
+from plots.read import pareto, results
 from page import Page, golden
 
 

@@ -3,7 +3,7 @@ and that the page is dark where the reader wants it so."""
 import json
 from collections import Counter
 
-import results
+from plots.read import results
 from page import GOLDEN, ROOT, Page, golden
 
 STAR = "* a stand-in: the scene itself is not there."

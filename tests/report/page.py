@@ -16,9 +16,9 @@ import unittest.mock
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 GOLDEN = ROOT / "tests" / "golden"
-sys.path.insert(0, str(ROOT / "plots"))
+sys.path.insert(0, str(ROOT))
 
-import results  # noqa: E402
+from plots.read import results  # noqa: E402
 from browser import Browser  # noqa: E402
 
 FILES = ("table1", "quality", "table2", "accuracy", "stress")

@@ -1,7 +1,7 @@
 """Tests that tables sort and filter, show the reader's numbers and missing ones, and link to raw samples."""
 import re
 
-import results
+from plots.read import results
 from page import DETAIL, GOLDEN, Page, golden
 
 

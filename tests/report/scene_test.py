@@ -138,7 +138,7 @@ class Scene(unittest.TestCase):
         run_facts = golden("table4")["run"]
         view.write_text(json.dumps({"run": run_facts, "cell": cell, "points": [0] * 9, "faces": [0, 1, 2], "levels": [], "pairs": [],
                                     "contacts": []}), encoding="utf-8")
-        done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", "--view", view, "--out", self.folder / "wrong.html"],
+        done = subprocess.run([sys.executable, ROOT / "plots", "report", "--view", view, "--out", self.folder / "wrong.html"],
                               capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (1, ""))
         self.browser.open(self.folder / "wrong.html")

@@ -1,4 +1,4 @@
-from quotes import Document, File, us
+from plots.evidence.quotes import Document, File, us
 
 METHODS = ("filter-f64+exact", "guigue-f64", "guigue-f32", "moller-f32", "sat-f32")
 WRONG = ("missed_count", "false_count")

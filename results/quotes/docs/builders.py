@@ -1,8 +1,7 @@
 import math
 
-import builder_rows
-import results
-from quotes import ROOT, Document
+from plots.evidence.quotes import ROOT, Document
+from plots.read import builder_rows, results
 
 
 def quotes(doc: Document) -> None:

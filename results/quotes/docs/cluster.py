@@ -1,5 +1,5 @@
-from clusters import stage_times
-from quotes import Document, File, frame_ms
+from plots.evidence.quotes import Document, File, frame_ms
+from plots.read.rank_files import stage_times
 
 STRONG = {"cluster-strong": "torus:67108864", "cluster-strong-buddha": "Happy Buddha, refined to 17,000,000",
           "cluster-strong-hairball": "hairball:8000000", "cluster-strong-small": "torus:2880000"}

@@ -1,6 +1,6 @@
-import results
-from cells import Cell
-from quotes import ONE_SET, Document, File, best, later_ms, ratios, us
+from plots.evidence.quotes import ONE_SET, Document, File, best, later_ms, ratios, us
+from plots.read import results
+from plots.read.cells import Cell
 
 BLOCK, GROUP, LEAF = (f"{name} over oibvh-multi (hilbert30, sorted leaves)" for name in ("block", "group", "leaf"))
 BVTT, CDK18 = "bvtt (jump 2) over oibvh-multi", "bvtt (jump 1) over perfect"

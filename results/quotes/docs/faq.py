@@ -1,4 +1,4 @@
-from quotes import Document, File, us
+from plots.evidence.quotes import Document, File, us
 
 
 def quotes(doc: Document) -> None:

@@ -1,7 +1,7 @@
 from collections.abc import Iterator
 
-from headlines import spread, told
-from quotes import ONE_SET, Document, File
+from plots.evidence.headlines import spread, told
+from plots.evidence.quotes import ONE_SET, Document, File
 
 SCENES = ("torus:144046", "torus:2880000", "torus:16777216", "happy_buddha_1087716", "unc_cloth_ball")
 KINDS = {"": False, ", cold caches": False, ", from host to host": True}

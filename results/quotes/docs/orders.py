@@ -1,4 +1,4 @@
-from quotes import Document, File, sah, us
+from plots.evidence.quotes import Document, File, sah, us
 
 QUALITY = ("oibvh-multi, morton30-axis", "oibvh-multi", "oibvh-multi, hilbert30", "oibvh-multi, hilbert30+kd1024", "oibvh-multi, kd",
            "apetrei-fused")

@@ -1,6 +1,6 @@
 from collections.abc import Iterable
 
-from quotes import Document, File, ends, later_ms, listed, ratios, sah, us
+from plots.evidence.quotes import Document, File, ends, later_ms, listed, ratios, sah, us
 
 of_frames = listed("docs/collisions")
 SCENES, RADIX, BVTT = list(of_frames.TABLE2.values()), of_frames.RADIX, of_frames.BVTT

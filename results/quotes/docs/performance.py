@@ -1,5 +1,5 @@
-from cells import Cell
-from quotes import ONE_SET, Document, File, ratios, us
+from plots.evidence.quotes import ONE_SET, Document, File, ratios, us
+from plots.read.cells import Cell
 
 LARGE, SMALL = "torus:2880000", "torus:144046"
 TITLES = "bytes per triangle | launches | large: floor | reached | ratio | small: reached | ratio"

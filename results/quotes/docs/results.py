@@ -1,6 +1,5 @@
-import answer
-import ranking
-from quotes import Document, File, ends, frame_ms, later_ms, listed, ratios, sah
+from plots.evidence.quotes import Document, File, ends, frame_ms, later_ms, listed, ratios, sah
+from plots.read import ranking, ranking_text
 
 of_paper, of_frames, of_orders, of_rivals, of_stress = (
     listed(f"docs/{name}") for name in ("paper", "collisions", "orders", "rivals", "stress"))
@@ -11,8 +10,8 @@ def quotes(doc: Document) -> None:
     table1, fig8, table2, table3, table4, quality = (File(f"h200/{name}") for name in names)
     best: dict[str, list[float]] = {}
     for rows in ranking.ranked(File("h200/families").cells).scenes.values():
-        for row in answer.best_of_families(rows):
-            best.setdefault(answer.family(row), []).append(row.ratio)
+        for row in ranking_text.best_of_families(rows):
+            best.setdefault(ranking_text.family(row), []).append(row.ratio)
     if max(best["implicit trees"]) > 1:
         raise ValueError("the page says that implicit trees win on all three scenes")
     doc.says("Front tracking takes {} to {} times as long, a hierarchical grid {} to {}, radix trees {} to {}, and Embree on 16 threads of "

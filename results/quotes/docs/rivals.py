@@ -1,5 +1,5 @@
-from cells import Cell
-from quotes import ONE_SET, Document, File, ends, query_us, tree_us, us
+from plots.evidence.quotes import ONE_SET, Document, File, ends, query_us, tree_us, us
+from plots.read.cells import Cell
 
 SCENES = ("bend:torus:144046", "bend:torus:1087474", "bend:torus:2880000", "bend:happy_buddha_1087716", "unc_cloth_ball" + ONE_SET,
           "bend:hairball:400000", "bend:grid:1000000", "bend:soup:500000")

@@ -1,6 +1,6 @@
-import savings
-from quotes import Document, File, ends, us
-from savings import Saving
+from plots.evidence.quotes import Document, File, ends, us
+from plots.read import savings
+from plots.read.savings import Saving
 
 
 def spread(values: list[float], digits: int) -> str:

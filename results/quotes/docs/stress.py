@@ -1,4 +1,4 @@
-from quotes import Document, File
+from plots.evidence.quotes import Document, File
 
 
 def right_of(name: str) -> tuple[int, int]:

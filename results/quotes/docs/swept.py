@@ -1,4 +1,4 @@
-from quotes import Document, File, us
+from plots.evidence.quotes import Document, File, us
 
 OVER = "over oibvh-single (hilbert30, sorted leaves)"
 SCENES = ("unc_cloth_ball", "ipc_armadillo_rollers", "unc_nbody", "unc_cloth_funnel")

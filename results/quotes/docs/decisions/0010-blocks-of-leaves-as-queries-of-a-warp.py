@@ -1,4 +1,4 @@
-from quotes import ONE_SET, Document, File, query_us
+from plots.evidence.quotes import ONE_SET, Document, File, query_us
 
 
 def quotes(doc: Document) -> None:

@@ -1,0 +1,124 @@
+"""Prints run time against error, one table for each axis of accuracy."""
+from collections.abc import Callable
+
+from ..read import results
+from ..read.cells import Cell, elapsed_ns, grouped, median, whole_ns
+from ..words.tables import Table, duration, fixed, whole
+from . import spread, swept_table
+
+YARDSTICK = "guigue-f64"
+FRAME_COUNTS = ("pairs_count", "right_contacts_count", "missed_count", "false_count")
+NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32", "sat-f32")
+
+
+def text(run: results.Run) -> str:
+    """Returns the tables; empty if the file has no cells of an axis."""
+    by_axis = grouped((cell for cell in run.all_cells if cell.operation == "accuracy"), lambda cell: cell.accuracy["axis"])
+    return "".join(table(by_axis[axis]) for axis, table in AXES.items() if axis in by_axis) + swept_table.text(run, "accuracy")
+
+
+def counts(cell: Cell, *keys: str) -> list[str]:
+    return [whole(cell.counters.get(key)) for key in keys]
+
+
+def must(cell: Cell, *keys: str) -> list[str]:
+    """Returns required counters as text. Raises KeyError if one is missing."""
+    return [whole(cell.counters[key]) for key in keys]
+
+
+def lines(cells: list[Cell], titles: tuple[str, ...], row: Callable[[Cell], list[str]],
+          has_numbers: Callable[[Cell], bool] = lambda cell: cell.has_times) -> str:
+    """Returns one line for each cell: scene, method, the entries of `row`, and the verdict; or why there are no numbers."""
+    table = Table(*titles, "<verdict")
+    for cell in cells:
+        numbers = [*row(cell), cell.verdict] if has_numbers(cell) else [*[""] * (len(titles) - 2), spread.why(cell)]
+        table.row(cell.scene_facts["name"], cell.accuracy["method"], *numbers)
+    return table.text()
+
+
+def sums(cells: list[Cell]) -> str:
+    return lines(cells, ("<scene", "<sum", "nodes", "surface area cost", "relative error", "ns/node"), lambda cell: [
+        *must(cell, "nodes_count"), f"{cell.counters['sah_cost']:.6f}",
+        f"{error:.1e}" if (error := cell.counters["relative_error"]) else "0",
+        f"{spread.ratio(cell.median_ns(), cell.counters['nodes_count']):.2f}"])
+
+
+def codes(cells: list[Cell]) -> str:
+    return lines(cells, ("<scene", "<codes", "duplicates", "longest run", "surface area cost", "box tests", "codes and sort",
+                         "build", "query", "missed", "false"), lambda cell: [
+        *counts(cell, "duplicates_count", "longest_run_count"), fixed(cell.counters.get("sah_cost")),
+        *counts(cell, "box_tests_count"), duration(cell.median_ns("codes") + cell.median_ns("sort")),
+        duration(build_ns(cell)), duration(cell.median_ns("broad")), *counts(cell, "missed_count", "false_count")])
+
+
+def build_ns(cell: Cell) -> float:
+    """Returns the median time of all stages but the query."""
+    return median([whole_ns(sample) - elapsed_ns(sample["broad"]) for sample in cell.samples if "broad" in sample])
+
+
+def inputs(cells: list[Cell]) -> str:
+    return lines(cells, ("<scene", "<vertices", "pairs of doubles", "missed", "false", "times as many", "frame"), lambda cell: [
+        *must(cell, "right_pairs_count", "missed_count", "false_count"), inflation(cell), duration(cell.median_ns())])
+
+
+def boxes(cells: list[Cell]) -> str:
+    return lines(cells, ("<scene", "<boxes", "bytes a box", "gather", "hierarchy", "query", "narrow", "frame", "box tests",
+                         "missed", "false", "times as many"), lambda cell: [
+        *(count or "0" for count in counts(cell, "node_bytes")),
+        *(duration(cell.median_ns(name)) for name in ("gather", "hierarchy", "broad", "narrow", "")),
+        *(count or "0" for count in counts(cell, "box_tests_count", "missed_count", "false_count")), inflation(cell)])
+
+
+def inflation(cell: Cell) -> str:
+    """Returns the number of pairs found for each right pair."""
+    right = cell.counters.get("right_pairs_count", 0)
+    return f"{cell.counters['pairs_count'] / right:.3f}" if right > 0 else ""
+
+
+def narrow(cells: list[Cell]) -> str:
+    yardsticks = {cell.scene_facts["name"]: ns_a_pair(cell) for cell in reversed(cells)
+                  if cell.accuracy["method"] == YARDSTICK and cell.has_times}
+
+    def row(cell: Cell) -> list[str]:
+        pairs, beside = cell.counters["pairs_count"], yardsticks.get(cell.scene_facts["name"])
+        own = ns_a_pair(cell) if cell.has_times else None
+        return [*must(cell, "pairs_count", "meeting_count", "missed_count", "false_count"),
+                f"{100 * cell.counters['narrow_exact_count'] / pairs:.1f} %" if pairs else "",
+                f"{own:.2f}" if own is not None else "",
+                f"{spread.ratio(own, beside):.2f}" if own is not None and beside is not None else ""]
+
+    titles = ("<pairs of triangles", "<narrow phase", "pairs", "meet", "missed", "false", "exactly", "ns/pair", f"of {YARDSTICK}")
+    return lines(cells, titles, row, lambda cell: cell.status == "measured") + "".join(totals(cells))
+
+
+def ns_a_pair(cell: Cell) -> float:
+    return spread.ratio(cell.median_ns(), cell.counters["pairs_count"])
+
+
+def totals(cells: list[Cell]) -> list[str]:
+    measured = [cell for cell in cells if cell.status == "measured"]
+    said = []
+    by_method = grouped(measured, lambda cell: cell.accuracy["method"])
+    for method in sorted(by_method, key=lambda name: (NARROW.index(name) if name in NARROW else len(NARROW), name)):
+        own = [cell.counters for cell in by_method[method]]
+        missed, false, pairs = (int(sum(one[key] for one in own)) for key in ("missed_count", "false_count", "pairs_count"))
+        wrong = sum(one["missed_count"] + one["false_count"] > 0 for one in own)
+        said.append(f"{method}: {missed:,} missed and {false:,} false of {pairs:,} pairs, "
+                    f"wrong in {wrong} of {len(own)} classes\n")
+    return said + [f"seed {seed}\n" for seed in sorted({cell.accuracy.get("seed", 0) for cell in measured})]
+
+
+def frames(cells: list[Cell]) -> str:
+    """Returns one line for each setting of a scene: times are means over its frames, counts are of all of them."""
+    table = Table("<scene", "<setting", "frames", "frame", "pairs", "contacts", "missed", "false", "<verdict")
+    for (scene, method), own in grouped(cells, lambda cell: (cell.scene_facts["name"], cell.accuracy["method"])).items():
+        if without := [cell for cell in own if not cell.has_times]:
+            table.row(scene, method, *[""] * 6, spread.why(without[0]))
+            continue
+        table.row(scene, method, str(len(own)), duration(sum(cell.median_ns() for cell in own) / len(own)),
+                  *(whole(sum(cell.counters[key] for cell in own)) for key in FRAME_COUNTS), own[0].verdict)
+    return table.text()
+
+
+AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "boxes": boxes,
+                                                "frames": frames}

@@ -1,0 +1,219 @@
+"""Run time against error, a figure an axis of accuracy.
+
+narrow: a row a narrow phase, with its worst and its typical class of pairs of triangles; classes: all of them in
+numbers. sums: a panel a scene, a point a way to add areas up. codes: a panel a scene and measure, a point an order, and
+which is the fastest of build and k queries. input: how many pairs of boxes, and what a frame takes, by how far from the
+origin the scene is. boxes: a panel a scene, a point a format, larger the more bytes a box takes. swept: as
+swept_bars.py. frames: a panel a scene, a point a setting, false contacts above and missed ones below. impacts: a panel
+a scene and query, a point a tolerance. In sums, codes, boxes and impacts left and down is better; the grey line joins
+what no other method is as good as in both time and error (the Pareto front), and those points are filled.
+"""
+import functools
+import math
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+
+from ..draw import figure, style
+from ..read import results
+from . import accuracy_frames, accuracy_narrow, swept_bars
+from .accuracy_points import METHODS, Point, by_input, draw_points, from_zero, legend, log_times, look, median_s
+
+SCENE_COLUMNS = 4
+MOST_QUERIES = 1000
+
+def build_s(cell: results.Cell) -> float:
+    """Returns the median time of all stages before the query, in seconds."""
+    return results.median(cell.times_s() - cell.times_s("broad"))
+
+
+def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = by_input(cells)
+    drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
+    from_zero(grid[0].yaxis, [cell.counters["relative_error"] for cell in cells], 1e-17, 1e-16,
+              lambda value: f"1e{round(math.log10(value))}", 6)
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
+        points = [Point(1e9 * median_s(cell) / cell.counters["nodes_count"], cell.counters["relative_error"],
+                        cell.accuracy["method"]) for cell in group]
+        log_times(axes, points)
+        draw_points(axes, "sums", points)
+        axes.set_title(name, loc="left")
+        axes.set_xlabel("ns a node")
+        if number % columns == 0:
+            axes.set_ylabel("relative error")
+    figure.footer(drawing, run, "accuracy", (
+        "Surface area cost of the tree of oibvh-multi, on one core of the host, against long double. Down and left is "
+        "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, "sums", cells, 6))
+    return drawing
+
+
+class Cost(NamedTuple):
+    build: float
+    query: float
+    method: str
+
+    def of(self, queries: float) -> float:
+        return self.build + queries * self.query
+
+
+def cheapest(costs: list[Cost], most: float) -> list[tuple[float, Cost]]:
+    """Returns (queries, cost) for each method that is cheapest from that number of queries on, starting at 1 and up to `most`."""
+    best = min(costs, key=lambda cost: (cost.of(1), cost.query))
+    found = [(1.0, best)]
+    while True:
+        # Numbers of queries at which a method with faster queries becomes cheaper than the current best.
+        crossings = [((cost.build - best.build) / (best.query - cost.query), cost.query, cost)
+                     for cost in costs if cost.query < best.query]
+        if not crossings or min(crossings)[0] > most:
+            return found
+        queries, _, best = min(crossings)
+        found.append((queries, best))
+
+
+def draw_break_even(axes: plt.Axes, costs: list[Cost], most: float) -> None:
+    """Draws the time of a build plus k queries, relative to the fastest implicit tree, and marks each k at which another tree
+    becomes the fastest."""
+    implicit = [cost for cost in costs if cost.method != "radix"] or costs
+    best = cheapest(implicit, most)
+    counts = sorted({most ** (step / 60) for step in range(61)} | {queries for queries, _ in best})
+    least = [min(cost.of(queries) for cost in implicit) for queries in counts]
+    for cost in costs:
+        seen = look("codes", cost.method)
+        is_best = cost.method == "radix" or any(cost is other for _, other in best)
+        axes.plot(counts, [cost.of(queries) / low for queries, low in zip(counts, least, strict=True)], color=seen.colour,
+                  linewidth=1.4 if is_best else 0.5, zorder=3 if is_best else 2)
+    for number, (queries, cost) in enumerate(best):
+        seen = look("codes", cost.method)
+        axes.plot(queries, 1, marker=seen.marker, color=seen.colour, linestyle="none", clip_on=False, zorder=4)
+        if number > 0:
+            axes.axvline(queries, ymax=0.5, color=seen.colour, linewidth=0.5, linestyle=":", zorder=1)
+            axes.text(queries, 0.04 + 0.13 * (number % 2), f" {queries:.3g}", fontsize=6)
+    axes.set(xscale="log", xlim=(1, most), ylim=(0, 2))
+    figure.log_ticks(axes.xaxis, 1, most)
+
+
+def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    cells = [cell for cell in cells if "sah_cost" in cell.counters]
+    inputs = by_input(cells)
+    if not inputs:
+        raise results.Refused(f"{run.path}: no tree of the axis codes has a surface area cost")
+    measures = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query, M"}
+    drawing, grid = plt.subplots(len(measures) + 1, len(inputs), figsize=(style.PAGE_WIDTH, 7.0), squeeze=False,
+                                 layout="constrained")
+    for column, (name, group) in enumerate(inputs.items()):
+        costs = [Cost(build_s(cell), median_s(cell, "broad"), cell.accuracy["method"]) for cell in group]
+        draw_break_even(grid[-1][column], costs, MOST_QUERIES)
+        grid[-1][column].set_xlabel("queries of one build")
+        if column == 0:
+            grid[-1][column].set_ylabel("build and queries")
+        for row, measure in enumerate(measures):
+            scale = 1e-6 if measure == "box_tests_count" else 1
+            points = [Point(1e3 * build_s(cell), scale * cell.counters[measure], cell.accuracy["method"])
+                      for cell in group]
+            axes = grid[row][column]
+            figure.round_ticks(axes.xaxis, *log_times(axes, points), 3 if len(inputs) > 3 else 5)
+            draw_points(axes, "codes", points)
+            axes.set_ylim(0, 1.1 * max(point.error for point in points))
+            if row == 0:
+                axes.set_title(name if len(name) < 20 else name.replace(":", ":\n", 1), loc="left", fontsize=6.5)
+            else:
+                axes.set_xlabel("build, ms")
+            if column == 0:
+                axes.set_ylabel(measures[measure])
+    figure.footer(drawing, run, "accuracy", (
+        "Trees of oibvh-multi, and the radix tree of apetrei-fused, queried by leaf; every query's pairs are those of the "
+        "sweep. -axis: cells stretched to the box, -scene: one grid over all objects. Filled, joined: no other is as good in "
+        "both.", "Below: times as long as the fastest but for radix; marked is from how many queries on that is another. Times: medians.",
+        run.costs_remark()), legend(drawing, "codes", cells, 5))
+    return drawing
+
+
+def distance(cell: results.Cell) -> float:
+    """Returns the 1e3 of "SCENE at 1e3": the distance of the scene from the origin, in sizes of the scene."""
+    return float(cell.scene.rsplit(" at ", 1)[1])
+
+
+def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    scenes = results.grouped(cells, lambda cell: cell.scene.rsplit(" at ", 1)[0])
+    drawing, grid = plt.subplots(2, len(scenes), figsize=(style.PAGE_WIDTH, 4.0), squeeze=False, layout="constrained",
+                                 sharex=True)
+    for column, (scene, there) in enumerate(scenes.items()):
+        for method, seen in METHODS["input"].items():
+            group = sorted((cell for cell in there if cell.accuracy["method"] == method), key=distance)
+            for row, value in enumerate((lambda cell: cell.counters["pairs_count"] / cell.counters["right_pairs_count"],
+                                         lambda cell: 1e3 * median_s(cell))):
+                axes = grid[row][column]
+                axes.plot([distance(cell) for cell in group], [value(cell) for cell in group], color=seen.colour,
+                          marker=seen.marker, label=method)
+                axes.set_xscale("symlog", linthresh=100, linscale=0.5)
+                axes.set_yscale("log")
+        for axes, name in zip(grid[:, column], ("pairs, for each right one", "frame, ms"), strict=True):
+            figure.log_ticks(axes.yaxis, *axes.get_ylim())
+            if column == 0:
+                axes.set_ylabel(name)
+        grid[0][column].set_title(scene, loc="left")
+        grid[1][column].set_xlabel("distance from the origin, in sizes of the scene")
+    figure.footer(drawing, run, "accuracy", (
+        "Vertices are doubles, rounded to floats as they are or after the middle of their box was taken off. Pairs of boxes "
+        "against those of doubles: rounding misses none. Times: medians.",), legend(drawing, "input", cells, 2))
+    return drawing
+
+
+def inflation(cell: results.Cell) -> float:
+    """Returns the number of false pairs for each right pair."""
+    return cell.counters["false_count"] / max(1, cell.counters["right_pairs_count"])
+
+
+def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = by_input(cells)
+    drawing, grid, columns = figure.panels(len(inputs), 2 if len(inputs) == 4 else 3, (1.1, 2.6), sharey=True)
+    from_zero(grid[0].yaxis, [inflation(cell) for cell in cells], 1e-3, 1e-3, lambda value: f"{value:g}", 6)
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
+        points = [Point(1e3 * median_s(cell, "broad"), inflation(cell), cell.accuracy["method"]) for cell in group]
+        low, high = min(point.time for point in points), max(point.time for point in points)
+        axes.set_xlim(low - 0.15 * (high - low) - 0.05 * high, high + 0.3 * (high - low) + 0.05 * high)
+        draw_points(axes, "boxes", points)
+        for line, cell in zip(axes.lines[1:], group, strict=True):  # the line of the front comes first, then one line for each point
+            line.set_markersize(2.2 * math.sqrt(cell.counters["node_bytes"]))
+        axes.set_title(name, loc="left")
+        axes.set_xlabel("query, ms")
+        if number % columns == 0:
+            axes.set_ylabel("false pairs, for each right one")
+    figure.footer(drawing, run, "accuracy", (
+        "Areas of points: bytes a box, 6 of u8 to 48 of f64. Rounded outward, boxes miss no pair.",
+        "Left and down is better. Filled, joined: no other is as good in both. Times: medians."),
+        legend(drawing, "boxes", cells, 6))
+    return drawing
+
+
+def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = results.grouped(cells, lambda cell: f"{cell.scene},\n{cell.swept['pairs']}")
+    drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
+    from_zero(grid[0].yaxis, [cell.counters["false_count"] for cell in cells], 1, 1, lambda value: f"{value:,.0f}", 6)
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
+        points = [Point(1e3 * median_s(cell, "narrow"), cell.counters["false_count"], cell.accuracy["method"]) for cell in group]
+        log_times(axes, points)
+        draw_points(axes, "impacts", points)
+        axes.set_title(name, loc="left", fontsize=6.5)
+        axes.set_xlabel("narrow phase, ms")
+        if number % columns == 0:
+            axes.set_ylabel("false pairs")
+    missed = sum(cell.counters["missed_count"] for cell in cells)
+    figure.footer(drawing, run, "accuracy", (
+        f"Pairs found that do not touch between two frames, against CGAL; {missed:,.0f} that do are missed. Left and down is "
+        "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, "impacts", cells, 3))
+    return drawing
+
+
+# The figures of each axis, by the name of the picture.
+FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
+           "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
+           "swept": {"swept": functools.partial(swept_bars.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw},
+           "impacts": {"impacts": draw_impacts}}
+
+
+def draws_of(run: results.Run) -> dict[str, figure.Draw]:
+    """Returns the figures of each axis that the file has measured cells of."""
+    by_axis = results.grouped((cell for cell in run.cells if cell.samples), lambda cell: cell.accuracy.get("axis"))
+    return {name: functools.partial(draw, cells=by_axis[axis]) for axis, draws in FIGURES.items() if axis in by_axis
+            for name, draw in draws.items()}

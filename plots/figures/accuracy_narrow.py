@@ -1,0 +1,123 @@
+"""Draws how often each narrow phase is wrong and what a pair takes: in its worst and typical class of pairs, and in all classes."""
+from collections.abc import Callable
+
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..draw import cell_map, figure, style
+from ..read import results
+from ..words import tables
+from .accuracy_points import METHODS, by_input, from_zero, look, median_s
+
+ROW = 0.52  # inches for a method
+INK = "#444444"
+NONE, FEW, MANY = "#DDEFF7", "#F7DFA8", "#E69F00"  # of cells of the map
+MANY_FROM = 0.01  # share of wrong pairs
+Value = Callable[[results.Cell], float]
+
+
+def wrong(cell: results.Cell) -> float:
+    """Returns the share of pairs that were missed or false."""
+    return (cell.counters["missed_count"] + cell.counters["false_count"]) / cell.counters["pairs_count"]
+
+
+def ns_a_pair(cell: results.Cell) -> float:
+    return 1e9 * median_s(cell) / cell.counters["pairs_count"]
+
+
+def percent(share: float) -> str:
+    return "0" if share == 0 else f"{100 * share:.{0 if share >= 0.1 else 2}{'f' if share >= 0.1 else 'g'}} %"
+
+
+def ns(value: float) -> str:
+    return f"{tables.three_digits(value)} ns"
+
+
+def by_method(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
+    """Returns the cells of each method, in the order of METHODS. Raises Refused for a method without a look."""
+    found = results.grouped(cells, lambda cell: cell.accuracy["method"])
+    for method in found:
+        look("narrow", method)
+    return {method: found[method] for method in METHODS["narrow"] if method in found}
+
+
+def class_name(cell: results.Cell) -> str:
+    return cell.scene.replace("_", " ")
+
+
+def draw_spread(axes: plt.Axes, methods: dict[str, list[results.Cell]], value: Value, text: Callable[[float], str]) -> None:
+    """Draws a row for each method: a dot for each class, and marks of the worst class and of the median over all classes."""
+    for row, (method, cells) in enumerate(methods.items()):
+        seen, values = look("narrow", method), [value(cell) for cell in cells]
+        worst, typical = max(cells, key=value), results.median(values)
+        axes.plot(values, [row] * len(values), ".", color=seen.colour, alpha=0.35, markersize=5, markeredgewidth=0,
+                  clip_on=False)
+        axes.plot(value(worst), row, "|", color=seen.colour, markersize=13, markeredgewidth=2, clip_on=False, zorder=3)
+        axes.plot(typical, row, seen.marker, color=seen.colour, markeredgecolor="black", markeredgewidth=0.6, markersize=6,
+                  clip_on=False, zorder=4)
+        low = axes.get_xlim()[0]
+        middle = axes.transData.transform((value(worst), 0))[0] > axes.transAxes.transform((0.5, 0))[0]
+        told = f"{class_name(worst)}: {text(value(worst))}" if value(worst) > 0 else "none wrong"
+        axes.annotate(told, (value(worst), row), (0, 8), textcoords="offset points", ha="right" if middle else "left",
+                      va="bottom", fontsize=style.SMALL)
+        axes.annotate(text(typical), (typical, row), (0, -7), textcoords="offset points",
+                      ha="center" if typical > low else "left", va="top", fontsize=style.SMALL, color=INK)
+    axes.set_ylim(len(methods) - 0.45, -0.65)
+    axes.grid(visible=False, axis="y")
+    axes.grid(axis="x")
+
+
+def remark(cells: list[results.Cell]) -> str:
+    inputs = by_input(cells)
+    pairs = sum(int(group[0].counters["pairs_count"]) for group in inputs.values())
+    seeds = ", ".join(map(str, sorted({cell.accuracy["seed"] for cell in cells})))
+    classes = f"{len(inputs)} class{'' if len(inputs) == 1 else 'es'}"
+    return (f"{pairs:,} pairs of triangles in {classes}, seed {seeds}. Wrong: missed or false, of the class's pairs, against "
+            "CGAL's exact predicates on the coordinates as stored.")
+
+
+def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    methods = by_method(cells)
+    drawing, (errors, times) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 1.5 + ROW * len(methods)), layout="constrained",
+                                            sharey=True, width_ratios=(3, 2))
+    from_zero(errors.xaxis, [wrong(cell) for cell in cells], 1e-3, 1, percent, 4)
+    low, high = min(map(ns_a_pair, cells)) / 2, max(map(ns_a_pair, cells)) * 1.5
+    times.set(xscale="log", xlim=(low, high))
+    figure.round_ticks(times.xaxis, low, high, 5)
+    draw_spread(errors, methods, wrong, percent)
+    draw_spread(times, methods, ns_a_pair, ns)
+    errors.set_yticks(range(len(methods)), list(methods))
+    errors.set_xlabel("wrong pairs of a class")
+    times.set_xlabel("time of a pair, ns")
+    for axes in (errors, times):
+        axes.tick_params(axis="y", length=0)
+    marks = {"a class": {"marker": ".", "alpha": 0.35},
+             "typical: the median over classes": {"marker": "o", "markeredgecolor": "black"},
+             "worst class, with its name": {"marker": "|", "markersize": 9, "markeredgewidth": 2}}
+    handles = [Line2D([], [], color=INK, linestyle="none", label=label, **mark) for label, mark in marks.items()]
+    height = figure.legend_above(drawing, handles)
+    figure.footer(drawing, run, "accuracy", (remark(cells), "Left is better. Times: medians."), height)
+    return drawing
+
+
+def draw_classes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    """Draws a map: a row a class, and for each method its share of wrong pairs and its time of a pair."""
+    methods = by_method(cells)
+    rows = list(dict.fromkeys(map(class_name, cells)))
+    entries: cell_map.Entries = {}
+    for method, those in methods.items():
+        for cell in those:
+            share = wrong(cell)
+            colour = NONE if share == 0 else FEW if share < MANY_FROM else MANY
+            entries[class_name(cell), f"{method}, wrong"] = (colour, percent(share))
+            entries[class_name(cell), f"{method}, ns"] = ("#EEEEEE", tables.three_digits(ns_a_pair(cell)))
+    columns = [f"{method}, {what}" for what in ("wrong", "ns") for method in methods]
+    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 2.0 + cell_map.inches(entries, rows)), layout="constrained")
+    cell_map.draw(axes, entries, rows, columns)
+    axes.axvline(len(methods), color="black", linewidth=0.8)
+    handles = [Patch(color=colour, label=label) for colour, label in (
+        (NONE, "none wrong"), (FEW, f"less than {100 * MANY_FROM:g} % wrong"), (MANY, "more wrong"))]
+    height = figure.legend_above(drawing, handles)
+    figure.footer(drawing, run, "accuracy", (remark(cells), "ns: median time of a pair."), height)
+    return drawing

@@ -1,0 +1,79 @@
+"""The figure of `best`: the best builders or pipelines of each scene as bars, with stages stacked and the ratio to the best."""
+import dataclasses
+from collections.abc import Callable, Sequence
+
+import matplotlib.pyplot as plt
+from matplotlib.patches import Patch
+
+from ..draw import figure, pipelines, style
+from ..read import ranking_text, results
+from ..read.ranking import OF_QUERY, Ranking, Row
+from ..words import names
+from ..words.tables import three_digits
+from . import frame_bars
+
+MOST_ROWS = 15
+MOST_SCENES = 8
+BYTES = (("tree", "tree_bytes", "#009E73"), ("scratch", "scratch_bytes", "#56B4E9"), ("query", "query_bytes", "#E69F00"),
+         ("narrow phase", "narrow_bytes", "#D55E00"))
+# The name of each part of a frame, by its colour.
+PARTS = {colour: names.part(stages, names.STAGES) for stages, colour in frame_bars.PARTS} | {frame_bars.BETWEEN: names.BETWEEN}
+REST = ("in no stage", frame_bars.BETWEEN)  # of the wall clock
+Part = tuple[str, str, float]  # name, colour, milliseconds or megabytes
+
+
+def parts_of(row: Row, objective: str, by_wall: bool) -> list[Part]:
+    if by_wall and objective != "memory":
+        parts = [part for part in parts_of(row, objective, False) if part[1] != frame_bars.BETWEEN]
+        return [*parts, (*REST, 1e-6 * row.ns - sum(width for _, _, width in parts))]
+    if objective == "memory":
+        return [(name, colour, 1e-6 * row.mean(counter)) for name, counter, colour in BYTES if row.mean(counter) > 0]
+    shown = pipelines.Pipeline(row.first.scene, row.cells)
+    if objective != "query":
+        return [(PARTS[colour], colour, row.scale * width) for colour, width in frame_bars.parts_of(shown)]
+    parts = [(PARTS[colour], colour, row.scale * sum(shown.stage_ms(stage) for stage in stages if stage in OF_QUERY))
+             for stages, colour in frame_bars.PARTS]
+    return [part for part in parts if part[2] > 0]
+
+
+def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, label: Callable[[Row], str]) -> set[tuple[str, str]]:
+    """Draws the bars of one scene and returns the names and colours of their parts."""
+    drawn = [parts_of(row, objective, by_wall) for row in rows]
+    wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns
+              for row, parts in zip(rows, drawn, strict=True)]
+    limit = frame_bars.MOST * wholes[0]
+    unit = "MB" if objective == "memory" else "ms"
+    for place, (row, parts, whole) in enumerate(zip(rows, drawn, wholes, strict=True)):
+        mark = "=" if row.tied and place else f"× {ranking_text.number(row.ratio)}"
+        frame_bars.bar(axes, place, [part[1:] for part in parts], limit, f"{three_digits(whole)} {unit}" + (f"  {mark}" if place else ""))
+    pipelines.dress_rows(axes, [label(row) for row in rows])
+    axes.set_xlim(0, 1.3 * min(limit, max(wholes)))
+    axes.set_title(pipelines.scene_title([pipelines.Pipeline(row.first.scene, row.cells) for row in rows]), loc="left")
+    return {(name, colour) for parts in drawn for name, colour, _ in parts}
+
+
+def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda row: ranking_text.label(row.first),
+         remarks: Sequence[str] = ()) -> plt.Figure:
+    scenes = [rows[:MOST_ROWS] for rows in found.scenes.values()][:MOST_SCENES]
+    heights = [len(rows) + 2.2 for rows in scenes]
+    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(heights) + 0.9), squeeze=False,
+                                 height_ratios=heights, layout="constrained")
+    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label)
+                          for axes, rows in zip(grid[:, 0], scenes, strict=True)))
+    what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}
+    grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
+    every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
+        [*((name, colour) for colour, name in PARTS.items()), REST]
+    handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
+    height = figure.legend_above(drawing, handles)
+    remarks = [*remarks, "Ratios are to the first bar; = is no worse within noise."]
+    remarks += ["Times are by the wall clock: some are from outside."] if found.by_wall and found.objective != "memory" else []
+    scaled = any(row.scale != 1 for rows in scenes for row in rows)
+    remarks += ["Times of the beaten are scaled to those of the best."] if scaled else []
+    remarks += [frame_bars.SHORTENED] if any(row.ratio > frame_bars.MOST for rows in scenes for row in rows) else []
+    hidden = max(len(rows) for rows in found.scenes.values()) - MOST_ROWS
+    remarks += [f"Of each scene the best {MOST_ROWS}."] if hidden > 0 else []
+    remarks += [f"The first {MOST_SCENES} of {len(found.scenes)} scenes."] if len(found.scenes) > MOST_SCENES else []
+    measured = dataclasses.replace(run, cells=[cell for rows in found.scenes.values() for row in rows for cell in row.cells])
+    figure.footer(drawing, measured, run.all_cells[0].experiment, tuple(remarks), height)
+    return drawing

@@ -1,0 +1,57 @@
+"""A lock file that marks a running process. The system releases the lock however the process ends."""
+import contextlib
+import errno
+import fcntl
+import os
+import time
+from collections.abc import Iterator
+
+from .json_files import Refused
+
+EXCLUSIVE, SHARED = fcntl.LOCK_EX, fcntl.LOCK_SH
+PAUSE_S = 0.05
+
+
+@contextlib.contextmanager
+def locked(path: str, kind: int, subject: str, patience_s: float = 1, remove: bool = False) -> Iterator[None]:
+    """Holds a lock on `path`, and with `remove` (exclusive locks only) deletes the file at the end. Retries for `patience_s`
+    while another process holds the lock, since the system takes a moment to end a killed process. Raises Refused after that, or
+    if the file cannot be created; the message names `subject`. A file system without locks excludes no other process."""
+    descriptor = taken(path, kind, subject, time.monotonic() + patience_s)
+    try:
+        yield
+    finally:
+        if remove:
+            with contextlib.suppress(OSError):
+                os.unlink(path)
+        os.close(descriptor)
+
+
+def taken(path: str, kind: int, subject: str, until: float) -> int:
+    while True:
+        try:
+            descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+        except OSError as error:
+            raise Refused(f"{subject} cannot be written: {error.strerror}") from error
+        try:
+            fcntl.flock(descriptor, kind | fcntl.LOCK_NB)
+            is_held = False
+        except OSError as error:
+            is_held = error.errno in (errno.EWOULDBLOCK, errno.EINTR)
+            if not is_held:
+                return descriptor
+        if not is_held and names(path, descriptor):
+            return descriptor
+        os.close(descriptor)
+        if is_held:
+            if time.monotonic() >= until:
+                raise Refused(f"{subject} is being written by another process")
+            time.sleep(PAUSE_S)
+
+
+def names(path: str, descriptor: int) -> bool:
+    """True if the path still names the open file. A process that ended may have deleted it after it was opened."""
+    try:
+        return os.path.samestat(os.stat(path), os.fstat(descriptor))
+    except OSError:
+        return False

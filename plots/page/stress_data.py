@@ -1,0 +1,105 @@
+"""What `stress` found, for the page: a sentence, and tables of systems, of what broke, and of everything. What a library got
+wrong is named and counted apart from what is ours."""
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+from ..console import stress_table as words
+from ..read.cells import grouped
+from ..words.tables import counted
+
+FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
+FACETS = ("family", "whose", "kind", "invariant")
+QUESTION = "Which trees, pairs and contacts are right on hostile scenes?"
+Found = dict[str, Any]  # a cell of `stress`, as in the result file
+
+
+def verdicts(cell: Found) -> set[str]:
+    return {finding["verdict"] for finding in cell["findings"].values()}
+
+
+def finding_of(stress: list[Found]) -> dict[str, Any]:
+    """Returns question and answer, as report_findings does."""
+    def count(cells: list[Found], verdict: str) -> int:
+        return sum(verdict in verdicts(cell) for cell in cells)
+
+    ours = [cell for cell in stress if not cell.get("library")]
+    broken, refused = (count(ours, verdict) or "none" for verdict in ("broken", "refused"))
+    said = [f"Ours: {broken} of {counted(len(ours), 'cell')} broken, {refused} refused."]
+    for library, cells in grouped((cell for cell in stress if cell.get("library")), lambda cell: cell["library"]).items():
+        said.append(f"{library}: {count(cells, 'broken'):,} of {counted(len(cells), 'cell')} broken.")
+    return {"experiment": "stress", "question": QUESTION, "answer": " ".join(said), "rows": []}
+
+
+def states_of(stress: list[Found]) -> Counter[tuple[str | None, str]]:
+    """Returns the number of findings by library and verdict."""
+    return Counter((cell.get("library"), finding["verdict"]) for cell in stress for finding in cell["findings"].values())
+
+
+def shown(name: str, finding: Found | None) -> str | None:
+    """Returns the verdict on an invariant, with what was missed and false of pairs and contacts, or how much was wrong."""
+    if finding is None or finding["verdict"] != "broken":
+        return finding and finding["verdict"]
+    wrong, missed = finding["wrong"], finding["missed"]
+    if name in ("pairs", "contacts"):
+        return f"broken: {missed:,} missed, {wrong - missed:,} false"
+    return f"broken: {wrong:,} wrong" if wrong else "broken"
+
+
+def bad_table(stress: list[Found]) -> dict[str, Any] | None:
+    """Returns one row for each finding that does not hold, ours first; None if all hold."""
+    bad = [(cell, name, finding) for cell in sorted(stress, key=lambda cell: bool(cell.get("library")))
+           for name, finding in cell["findings"].items() if finding["verdict"] != "holds"]
+    rows = [[cell["family"], cell["scene"], cell["system"], cell.get("library") or "ours", name, shown(name, finding),
+             finding.get("detail")] for cell, name, finding in bad]
+    columns = [("family", "text"), ("scene", "text"), ("system", "text"), ("whose", "text"), ("invariant", "text"),
+               ("verdict", "state"), ("detail", "text")]
+    return table("Broken or refused", rows, columns, [cell for cell, _, _ in bad]) if bad else None
+
+
+def cells_table(stress: list[Found]) -> dict[str, Any]:
+    there = [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
+    rows = [[cell["family"], cell["scene"], cell["system"], cell.get("library") or "ours", cell["kind"],
+             *(shown(name, cell["findings"].get(name)) for name in there),
+             "; ".join(f"{name}: {finding['detail']}" for name, finding in cell["findings"].items() if finding.get("detail"))
+             or None] for cell in stress]
+    columns = [*((label, "text") for label in ("family", "scene", "system", "whose", "kind")),
+               *((name, "state") for name in there), ("detail", "text")]
+    return table("Stress", rows, columns, stress) | {"folded": True}
+
+
+def table(title: str, rows: list[list[Any]], columns: list[tuple[str, str]], cells: list[Found]) -> dict[str, Any]:
+    """Returns a table; `cells` tell which rows are a library's."""
+    return {"title": title, "cells": None, "note": "", "rows": rows,
+            "libraries": [place for place, cell in enumerate(cells) if cell.get("library")],
+            "columns": [{"label": label, "kind": kind, "facet": label in FACETS} for label, kind in columns]}
+
+
+def systems_table(stress: list[Found]) -> dict[str, Any]:
+    """Returns one row for each system: its findings over all scenes, added up; first the systems of which one does not hold."""
+    there = [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
+    systems = grouped(sorted(stress, key=is_wholly_right(stress)), lambda cell: cell["system"])
+    rows = []
+    for system, cells in systems.items():
+        own = {name: [cell["findings"][name] for cell in cells if name in cell["findings"]] for name in there}
+        rows.append([system, cells[-1].get("library") or "ours", len(cells),
+                     *(shown_of(found) if found else None for found in own.values())])
+    return table("By system", rows, [("system", "text"), ("whose", "text"), ("scenes", "count"),
+                                     *((name, "state") for name in there)], [cells[-1] for cells in systems.values()])
+
+
+def is_wholly_right(stress: list[Found]) -> Callable[[Found], bool]:
+    """Returns a function of cells: true if all findings of the cell's system hold."""
+    bad = {cell["system"] for cell in stress if verdicts(cell) - {"holds"}}
+    return lambda cell: cell["system"] not in bad
+
+
+def shown_of(findings: list[Found]) -> str:
+    """Returns the worst verdict of several findings, with the number of scenes that have it if it is not "holds"."""
+    worst = words.joined(findings)["verdict"]
+    count = sum(finding["verdict"] == worst for finding in findings)
+    return worst if worst == "holds" else f"{worst}: {counted(count, 'scene')}"
+
+
+def tables_of(stress: list[Found]) -> list[dict[str, Any]]:
+    return [found for found in (bad_table(stress), systems_table(stress), cells_table(stress)) if found] if stress else []

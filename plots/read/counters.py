@@ -1,0 +1,36 @@
+"""Which counters of a cell are reproducible, and in which direction they get worse."""
+from .cells import Cell
+
+# Counters of colliders that vary a little from run to run without any change, with the reason. All other counters that are not
+# times are compared exactly.
+UNSTEADY = {("box_tests_count", "group"): "it takes nodes in the order in which they turn up, which work-items race for"}
+FOUND = ("pairs_count", "contacts_count")  # all that a library guarantees
+LIBRARIES = ("embree", "fcl")  # which builders and colliders wrap; beginnings of their names
+UNITS_OF_TIME = ("_ns", "_us", "_ms", "_s", "_per_s")
+# Counters that are exact on each device but differ between devices: sizes depend on the number of compute units, and queues grow
+# in steps of the device's, and bvtt starts where the device is tuned to.
+SIZED_BY_DEVICE = {"scratch_bytes", "query_bytes", "near_bytes", "narrow_bytes", "memory_bytes", "device_peak_bytes",
+                   "used_start_level", "used_jump", "earliest_impact"}
+COSTS = {"sah_cost", "sah_inner", "sah_leaf", "sibling_overlap", "depth_max", "depth_mean", "epo", "epo_inner", "epo_leaf",
+         "nodes_count", "missed_count", "false_count", "missed_pairs_count", "false_pairs_count", "relative_error",
+         "box_tests_count"}
+
+
+def is_time(counter: str) -> bool:
+    """True if the name ends with a unit of time, or is a rate."""
+    return counter.endswith(UNITS_OF_TIME)
+
+
+def is_exact(counter: str, cell: Cell) -> bool:
+    """True if a cell like this one has the same value in every run."""
+    return not is_time(counter) and (counter, cell.collider) not in UNSTEADY
+
+
+def is_promised(counter: str, cell: Cell) -> bool:
+    """False for counters of libraries that may change from run to run or with their version, such as Embree's memory."""
+    return counter in FOUND or not any(name.partition("-")[0] in LIBRARIES for name in (cell.builder, cell.collider or ""))
+
+
+def is_better_smaller(counter: str) -> bool:
+    """True if a smaller value is known to be better: costs, errors and bytes. Counts of results are neither better nor worse."""
+    return counter.endswith("_bytes") or counter in COSTS

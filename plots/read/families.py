@@ -1,0 +1,34 @@
+"""Families of builders and colliders: methods that work alike. To add a builder or collider, add the start of its name here."""
+from .cells import Cell
+
+EXPERIMENT = "families"  # compares the best of each
+
+# The start of a builder's name, and its family. The first that fits counts.
+BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfect", "padded implicit trees"),
+            ("karras", "radix trees"), ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"),
+            ("hploc", "clustered trees"), ("heap-median", "host builders"),
+            ("median-split", "host builders"), ("sah-binned", "host builders"), ("embree", "Embree"), ("fcl", "FCL"))
+# Families whose trees are on the host, where no collider of the device queries them.
+ON_HOST = ("host builders", "Embree", "FCL")
+OWN_LEAVES = ("wide trees", *ON_HOST)  # keep leaf boxes in their own way, whatever is asked
+# Colliders that make a family by themselves, whatever tree they use.
+COLLIDERS = (("front", "front tracking"), ("grid", "hierarchical grid"), ("brute", "sweep"), ("embree", "Embree"), ("fcl", "FCL"))
+
+
+def first_fit(name: str, table: tuple[tuple[str, str], ...]) -> str | None:
+    return next((family for start, family in table if name.startswith(start)), None)
+
+
+def of_builder(name: str) -> str:
+    return first_fit(name, BUILDERS) or name
+
+
+def of_collider(name: str) -> str | None:
+    """Returns the family that a collider makes by itself, or None if its tree decides."""
+    return first_fit(name, COLLIDERS)
+
+
+def of_cell(cell: Cell) -> str:
+    if cell.outside:
+        return cell.outside["library"]
+    return of_collider(cell.collider or "") or of_builder(cell.builder)
