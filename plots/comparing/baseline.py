@@ -4,19 +4,13 @@ from typing import Any
 
 from ..files import documents
 from ..read import counters, results
-from ..files import shape
 from ..files.documents import line_of
 from ..files.json_files import Refused, value_of
 from ..files.output import WrongUsage
 from ..read.cells import Cell, whole_ns
 
 FORMAT = "smoke-1"
-TEXT, NUMBER = {"type": "string"}, {"type": "number"}
-CELL = {"cell": TEXT, "scene": TEXT, "verdict": TEXT, "counters": {"type": "object", "additionalProperties": NUMBER},
-        "hashes": {"type": "object", "additionalProperties": TEXT}}
-SCHEMA = {"type": "object", "required": ["device_kind", "cells"], "properties": {
-    "device_kind": TEXT, "cells": {"type": "array", "items": {
-        "type": "object", "required": list(CELL), "properties": {**CELL, "fastest_ns": NUMBER}}}}}
+CELL = ("cell", "scene", "verdict", "counters", "hashes")  # keys of each cell
 
 Kept = dict[str, Any]  # what is kept of a cell, as in the file; "fastest_ns" only if its time is comparable
 
@@ -63,12 +57,12 @@ def parsed(text: bytes, origin: str) -> dict[str, Any]:
     """Parses and checks a baseline. Raises Refused, naming `origin`, if the text is not one."""
     try:
         baseline = value_of(text)
-        if not isinstance(baseline, dict) or "format" not in baseline:
-            raise ValueError("key 'format' not found" if isinstance(baseline, dict) else "it is no object")
+        documents.require(baseline, ("format",))
         if baseline["format"] != FORMAT:
             raise Refused(f'{origin} has format {line_of(baseline["format"])}; this program reads "{FORMAT}"')
-        shape.check_of(SCHEMA, SCHEMA)(baseline)
-    except (ValueError, shape.Wrong) as error:
+        documents.require(baseline, ("device_kind", "cells"))
+        documents.require_all(baseline, "cells", CELL)
+    except (TypeError, ValueError) as error:
         raise Refused(f"{origin} is no baseline of smoke: {error}") from error
     return baseline
 

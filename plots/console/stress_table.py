@@ -2,7 +2,7 @@
 from collections import Counter
 from typing import Any
 
-from ..files import documents
+from ..files import documents, json_files
 from ..read import results
 from ..read.cells import grouped
 from ..words.tables import Table, whole
@@ -74,7 +74,8 @@ def scenes(cells: list[dict[str, Any]]) -> str:
 
 
 def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
-    invariants = documents.schema()["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
+    schema = json_files.parsed(documents.FOLDER / "schema" / "result-1.schema.json")
+    invariants = schema["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
     table = Table("<system", "scenes", *(f"<{name}" for name in invariants), "<")
     for system, those in grouped(cells, lambda cell: cell["system"]).items():
         found = {name: [cell["findings"][name] for cell in those if name in cell["findings"]] for name in invariants}

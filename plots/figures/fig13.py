@@ -4,7 +4,6 @@ The triangle moves along its normal, by multiples of the diagonal of the mesh's 
 Left the costs, right their ratio, which is what the paper plots. An Oi-BVH in another order than the radix
 tree's is compared with the same radix tree, and drawn in a colour of its own.
 """
-
 import matplotlib.pyplot as plt
 
 from ..draw import figure, style

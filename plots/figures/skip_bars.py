@@ -3,7 +3,6 @@
 A panel a scene, a row a rule. Left: the time of a frame without the rule over that with it, a mark for each pipeline; right of 1
 the rule saves time. Right: the share of the work that it avoids. Rules with nothing to skip say so.
 """
-
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 

@@ -4,7 +4,6 @@ A panel a sequence, two bars a pipeline: pairs of vertices and faces and of edge
 frames' vertices to written pairs of both, and below it, paler, over the time of the queries alone. A pipeline that has
 one of the two queries has bars of that one, and says so.
 """
-
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter

@@ -4,7 +4,6 @@ Above: median time, whiskers from the 10th to the 90th percentile, and the paper
 machine's. Below it: triangles per second, and how near the builder comes to a plain copy of the bytes it must move,
 measured in the same run.
 """
-
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch

@@ -4,7 +4,6 @@ Over each pair stands how many times the one is the other. The paper's printed c
 machine, so they can be compared with ours wherever the mesh is the same. They are left out for other costs of a
 node and a triangle than the usual ones.
 """
-
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch

@@ -3,6 +3,7 @@ import array
 import pathlib
 from typing import Any
 
+from ..files import documents
 from ..read import ranking_text, results
 from ..read.cells import Cell
 from .cell_data import scene_name, state_of, who
@@ -81,8 +82,8 @@ def view_of(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, bytes]]:
     """Returns the facts of a scene, and its arrays by name. Raises results.Refused if the file is not a scene."""
     view = results.parsed(path)
     try:
-        results.check(path, view["cell"], "cell")
-        results.check(path, view["run"], "run")
+        documents.require(view["cell"], documents.CELL, "cell")
+        documents.require(view["run"], documents.RUN, "run")
         arrays = {"points": packed("f", view["points"])}
         arrays |= {name: packed("I", view[name]) for name in ("faces", "pairs", "contacts")}
         arrays["boxes"] = packed("f", [side for level in view["levels"] for side in level["boxes"]])

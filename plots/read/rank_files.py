@@ -1,17 +1,15 @@
 """Files of `bvhbench cluster`, of its --simulate, and of `bvhbench scale`: which a file is, and reading it."""
-import functools
-import json
 import lzma
 import os
 import pathlib
 from typing import Any
 
 from ..files import documents
-from ..files import shape
-from ..files.documents import FOLDER
 from ..files.json_files import Refused, parsed
 
 ONE, SIMULATED, RUNS = "cluster-1", "cluster-simulation-1", "cluster-runs-1"  # formats, without their minor version
+# Keys of a result, and of a file of `scale`.
+RESULT, RUNS_KEYS = ("format", "run", "scene", "partition", "builder", "ranks"), ("format", "experiment", "command", "runs")
 USUAL_BOXES = 64  # that each rank tells the others, in files that do not say
 
 
@@ -28,41 +26,32 @@ def kind_of(path: str | os.PathLike[str]) -> str:
     return next((kind for kind in (ONE, SIMULATED, RUNS) if f'"{kind}.'.encode() in text), "")
 
 
-@functools.cache
-def check_of(kind: str) -> shape.Check:
-    """Returns the check of a format by its schema."""
-    schema = json.loads((FOLDER / "schema" / f"{kind}.schema.json").read_text(encoding="utf-8"))
-    return shape.check_of(schema, schema)
-
-
 def format_of(document: dict[str, Any]) -> str:
     return document["format"].split(".")[0]
 
 
 def read(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Reads a file that kind_of knows, and checks it and the results in it. Raises Refused."""
-    document = parsed(pathlib.Path(path))
+    """Reads a file that kind_of knows, and checks the keys of the results in it. Raises Refused."""
+    document, kind = parsed(pathlib.Path(path)), kind_of(path)
     try:
-        check_of(kind_of(path))(document)
-        results = [run["result"] for run in document.get("runs", []) if "result" in run]
-        for result in results:
-            check_of(format_of(result))(result)
-        for result in results or [document]:
-            documents.check_of("run")(result["run"])
-            check_even(result)
-    except shape.Wrong as wrong:
-        raise Refused(f"{path}: not a file of `bvhbench cluster`: {wrong}") from wrong
+        documents.require(document, RUNS_KEYS if kind == RUNS else RESULT)
+        for result in [run["result"] for run in document["runs"] if "result" in run] if kind == RUNS else [document]:
+            documents.require(result, RESULT, "result")
+            documents.require(result["run"], documents.RUN, "run")
+            require_even(result)
+    except (LookupError, TypeError, ValueError) as error:
+        raise Refused(f"{path}: not a file of `bvhbench cluster`: {error}") from error
     return document
 
 
-def check_even(result: dict[str, Any]) -> None:
-    """Raises Wrong unless all ranks have as many samples, and these the same stages, which no schema can say."""
+def require_even(result: dict[str, Any]) -> None:
+    """Raises ValueError unless all ranks have as many samples, and these the same stages."""
     each = [[[stage["stage"] for stage in sample["stages"]] for sample in rank.get("samples", [])]
             for rank in result.get("ranks", [])]
     if any(len(samples) != len(each[0]) for samples in each):
-        raise shape.Wrong("has ranks with different numbers of samples")
+        raise ValueError("it has ranks with different numbers of samples")
     if any(stages != each[0][0] for samples in each for stages in samples):
-        raise shape.Wrong("has samples with different stages")
+        raise ValueError("it has samples with different stages")
 
 
 def measured(document: dict[str, Any]) -> list[dict[str, Any]]:

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..files import documents
-from ..words import names
-from ..files import shape
-from ..files.documents import FOLDER, MAJOR, check_of
+from ..files.documents import FOLDER
 from ..files.json_files import Refused, parsed
+from ..words import names
 from .cells import Cell, Quantiles, grouped, median, quantiles  # noqa: F401  (for figures, which read results alone)
 
 PAPER = FOLDER / "paper"
@@ -144,23 +143,9 @@ def is_result(path: pathlib.Path) -> bool:
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
 
 
-def check(path: pathlib.Path, value: Any, part: str = "") -> None:
-    """Raises Refused if the value does not match results/schema."""
-    try:
-        check_of(part)(value)
-    except shape.Wrong as wrong:
-        raise Refused(f"{path}: not a result file: {wrong}") from wrong
-
-
 def document_of(path: pathlib.Path) -> dict[str, Any]:
-    """Returns a result file, wrong answers included. Raises Refused for another format and for what the schema does not allow."""
-    document = parsed(path)
-    if not isinstance(document, dict) or not isinstance(document.get("format"), str):
-        raise Refused(f"{path}: not a result file")
-    if document["format"].split(".")[0] != MAJOR:
-        raise Refused(f"{path}: format {document['format']}, while this reader knows {MAJOR}.x")
-    check(path, document)
-    return document
+    """Returns a result file, wrong answers included. Raises Refused for another format and for what is no result file."""
+    return documents.checked(parsed(path), os.fspath(path))
 
 
 def load(path: pathlib.Path) -> Run:
@@ -172,9 +157,12 @@ def load(path: pathlib.Path) -> Run:
         raise Refused(f"{path}: merged from several devices, which no figure tells apart: {'; '.join(devices)}")
     for hook, value in document["run"].get("test_hooks", {}).items():
         raise Refused(f"{path}: made under the test hook {hook}={value}: it is no result")
-    cells = [failed_if_wrong(cell) for cell in hot_of(document["cells"])]
-    return Run(path, document, [cell_of(path, cell) for cell in cells if cell["status"] == "measured"],
-               [Cell(cell) for cell in cells if cell["status"] != "measured"])
+    try:
+        cells = [failed_if_wrong(cell) for cell in hot_of(document["cells"])]
+        return Run(path, document, [cell_of(path, cell) for cell in cells if cell["status"] == "measured"],
+                   [Cell(cell) for cell in cells if cell["status"] != "measured"])
+    except (AttributeError, LookupError, TypeError, ValueError) as error:
+        raise Refused(f"{path} is no result file: {error}") from error
 
 
 def hot_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:

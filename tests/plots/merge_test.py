@@ -4,13 +4,16 @@ import copy
 import json
 import unittest
 
-from base import GOLDEN, InFolder  # first: it adds the source root to sys.path
+import jsonschema
+from base import GOLDEN, ROOT, InFolder  # first: it adds the source root to sys.path
 
 from plots.files import documents, file_lock
 from plots.files.json_files import Refused
 from plots.files.output import WrongUsage
 from plots.files.reserved import reserved
 from plots.read import cells, merging
+
+SCHEMA = json.loads((ROOT / "results" / "schema" / "result-1.schema.json").read_text(encoding="utf-8"))
 
 
 def golden(name: str = "table1") -> dict:
@@ -114,13 +117,14 @@ class Merging(unittest.TestCase):
         document["cells"][-1]["check"]["verdict"] = "differs"
         merged = merging.merge([("a", document)])
         self.assertTrue(merged.differs)
-        documents.document_of(merged.text.encode(), "merged")
+        jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(merged.text))
 
 
 class JoiningProcesses(unittest.TestCase):
     def joined(self, *documents_: dict) -> dict:
         merged = merging.merge(zip("abc", documents_), processes=True)
-        document = documents.document_of(merged.text.encode(), "merged")  # obeys the schema
+        document = documents.document_of(merged.text.encode(), "merged")
+        jsonschema.Draft202012Validator(SCHEMA).validate(document)
         return document
 
     def test_a_cell_has_the_samples_of_all_and_each_says_whose_it_is(self) -> None:

