@@ -19,7 +19,7 @@ def verdicts(cell: Found) -> set[str]:
 
 
 def finding_of(stress: list[Found]) -> dict[str, Any]:
-    """Returns question and answer, as report_findings does."""
+    """Returns question and answer, as findings.py does."""
     def count(cells: list[Found], verdict: str) -> int:
         return sum(verdict in verdicts(cell) for cell in cells)
 

@@ -35,7 +35,8 @@ EXACT = ("none", "exact")  # values of `narrow` that give no wrong contacts
 USUAL = {key: usual for key, (usual, _) in {**ANSWERS, **OPTIONS}.items()}
 
 
-def said(options: Mapping[str, object], table: Mapping[str, tuple[str, str]]) -> list[str]:
+def non_default(options: Mapping[str, object], table: Mapping[str, tuple[str, str]]) -> list[str]:
+    """Returns the words of the options that are not the defaults; `table` has each option's default and words."""
     return [words.format(options[key]) for key, (usual, words) in table.items() if str(options.get(key, usual)) != usual]
 
 
@@ -58,7 +59,7 @@ def option(key: str, value: object) -> str:
 
 def variant(name: str, options: Mapping[str, object]) -> str:
     """Returns the name in figures: "bvtt (jump 2)"."""
-    words = said(options, {**OPTIONS, **USED})
+    words = non_default(options, {**OPTIONS, **USED})
     return CALLED.get(name, name) + (f" ({', '.join(words)})" if words else "")
 
 
@@ -72,7 +73,7 @@ def in_full(choice: Mapping[str, Any]) -> str:
     """Returns the name of a result file's builder or collider on the console: "bvtt, between objects, jump 2"."""
     options = choice.get("options", {})
     shown = {key: value for key, value in options.items() if key != "leaves" or options.get("boxes", "f32") == "f32"}
-    return ", ".join([choice["name"], *said(shown, ANSWERS), *said(shown, {**OPTIONS, **USED})])
+    return ", ".join([choice["name"], *non_default(shown, ANSWERS), *non_default(shown, {**OPTIONS, **USED})])
 
 
 def scene(facts: Mapping[str, object]) -> str:
