@@ -11,25 +11,25 @@
 
 namespace bvhbench {
 
-HeldScene::HeldScene(Session& session, const std::function<void()>& measure) : session_(session)
+PausedScene::PausedScene(Session& session, const std::function<void()>& measure) : session_(session)
 {
-    session.other_sampler.sample = [this](std::span<Subject> settled) {
+    session.other_sampler.sample = [this](std::span<Measurement> prepared) {
         if (leaves_)
             return;
         static_cast<void>(Progress(0));  // clears the line, so that results begin one
-        cells = settled;
-        settled_.release();
+        cells = prepared;
+        prepared_.release();
         sampled_.acquire();
     };
     thread_ = std::thread([this, measure] {
         failure = reason_of_failure(measure);
         cells = {};
-        settled_.release();
+        prepared_.release();
     });
-    settled_.acquire();
+    prepared_.acquire();
 }
 
-HeldScene::~HeldScene()
+PausedScene::~PausedScene()
 {
     leaves_ = true;
     sampled_.release();
@@ -37,10 +37,10 @@ HeldScene::~HeldScene()
     session_.other_sampler.sample = {};
 }
 
-void HeldScene::go_on()
+void PausedScene::resume()
 {
     sampled_.release();
-    settled_.acquire();
+    prepared_.acquire();
 }
 
 namespace {
@@ -61,7 +61,7 @@ Cells::Cells(const CommonOptions& common, Plan& plan)
     , results_({}, false, measured_facts(session_, {}))
     , run_(session_, results_, {})
 {
-    watchdog::go_on_with({});  // after a crash another process could not continue
+    watchdog::resume_after_crash({});  // after a crash another process could not continue
     session_.other_sampler.is_wanted = [this](const Cell& cell) {
         return std::ranges::any_of(plan_.cells, [&](const PlannedCell& planned) {
             return planned.scene == scene_ && planned.is_wanted && planned.is(cell);
@@ -76,12 +76,12 @@ Cells::Cells(const CommonOptions& common, Plan& plan)
 }
 
 /// Returns the prepared cell if the loaded scene has it or comes to it; nullptr if not.
-Subject* Cells::find(const PlannedCell& planned)
+Measurement* Cells::find(const PlannedCell& planned)
 {
-    for (; planned.scene == scene_ && held_ && !held_->cells.empty(); held_->go_on())
-        for (Subject& subject : held_->cells)
-            if (planned.is_wanted && planned.is(subject.cell))
-                return &subject;
+    for (; planned.scene == scene_ && paused_ && !paused_->cells.empty(); paused_->resume())
+        for (Measurement& measurement : paused_->cells)
+            if (planned.is_wanted && planned.is(measurement.cell))
+                return &measurement;
     return nullptr;
 }
 
@@ -90,40 +90,41 @@ std::string Cells::run(benchmark::State& state, PlannedCell& planned, const std:
     std::string& failure = planned.failure;
     if (!failure.empty())
         return failure;
-    Subject* subject = find(planned);
-    if (subject == nullptr) {
+    Measurement* measurement = find(planned);
+    if (measurement == nullptr) {
         planned.is_wanted = true;
         scene_ = planned.scene;
-        held_.reset();
-        held_ = std::make_unique<HeldScene>(session_,
-                                            [this] { run_.experiment(plan_.scenes[scene_]); });
-        subject = find(planned);
+        paused_.reset();
+        paused_ = std::make_unique<PausedScene>(session_,
+                                                [this] { run_.experiment(plan_.scenes[scene_]); });
+        measurement = find(planned);
     }
-    if (subject != nullptr)
-        failure = fault_of(subject->cell);
+    if (measurement != nullptr)
+        failure = fault_of(measurement->cell);
     else
-        failure = held_->failure.empty() ? "its scene has no such cell" : held_->failure;
+        failure = paused_->failure.empty() ? "its scene has no such cell" : paused_->failure;
     if (failure.empty())
-        failure = sampled(state, *subject, stage);
+        failure = sampled(state, *measurement, stage);
     return failure;
 }
 
-std::string Cells::sampled(benchmark::State& state, Subject& subject, const std::string& stage)
+std::string Cells::sampled(benchmark::State& state, Measurement& measurement,
+                           const std::string& stage)
 {
-    Cell& cell = subject.cell;
+    Cell& cell = measurement.cell;
     std::string failure = reason_of_failure([&] {
         session_.set_caches(plan_.scenes[scene_].sampling.caches.front());
         for (; cell.warm_up > 0; --cell.warm_up)
-            subject.once();
+            measurement.once();
     });
     if (failure.empty())
-        failure = take_iterations(state, stage, subject.once);
+        failure = take_iterations(state, stage, measurement.once);
     session_.set_caches(Caches::hot);
     if (!failure.empty()) {
         session_.renew_queue();  // launches of the failed sample may be left in it
         return failure;
     }
-    failure = reason_of_failure(subject.judge_again);
+    failure = reason_of_failure(measurement.judge_again);
     for (const auto& [name, value] : cell.counters)
         state.counters[name] = value;
     state.SetItemsProcessed(state.iterations() * cell.scene.triangles);

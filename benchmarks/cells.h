@@ -18,25 +18,25 @@ namespace bvhbench {
 /// A call of the harness that waits where it would sample. The harness loads a scene, prepares its cells and samples them in one
 /// call, but Google Benchmark calls a function for each repetition of a cell, in any order. Therefore the call has a thread of its
 /// own, which waits while the cells are sampled outside: only one of the two threads works at any time. A session has one at a time.
-class HeldScene {
+class PausedScene {
 public:
-    std::span<Subject>
-        cells;            ///< prepared together, valid until go_on(); empty if the call has ended
+    std::span<Measurement>
+        cells;            ///< prepared together, valid until resume(); empty if the call has ended
     std::string failure;  ///< why the call threw; empty if it did not
 
     /// Begins the call and waits until it has prepared cells or ended.
-    HeldScene(Session& session, const std::function<void()>& measure);
-    ~HeldScene();  ///< lets the call end
-    HeldScene(const HeldScene&) = delete;
-    HeldScene& operator=(const HeldScene&) = delete;
+    PausedScene(Session& session, const std::function<void()>& measure);
+    ~PausedScene();  ///< lets the call end
+    PausedScene(const PausedScene&) = delete;
+    PausedScene& operator=(const PausedScene&) = delete;
 
     /// Waits until the call has prepared its next cells or ended.
-    void go_on();
+    void resume();
 
 private:
     Session& session_;
     bool leaves_ = false;  ///< whether the call is to end without further waiting
-    std::binary_semaphore settled_{0}, sampled_{0};
+    std::binary_semaphore prepared_{0}, sampled_{0};
     std::thread thread_;
 };
 
@@ -52,15 +52,16 @@ public:
     std::string run(benchmark::State& state, PlannedCell& planned, const std::string& stage);
 
 private:
-    Subject* find(const PlannedCell& planned);
-    std::string sampled(benchmark::State& state, Subject& subject, const std::string& stage);
+    Measurement* find(const PlannedCell& planned);
+    std::string sampled(benchmark::State& state, Measurement& measurement,
+                        const std::string& stage);
 
     Session session_;
     Plan& plan_;
     ResultFile results_;
     Run run_;
     std::size_t scene_ = 0;  ///< number of the loaded scene
-    std::unique_ptr<HeldScene> held_;
+    std::unique_ptr<PausedScene> paused_;
 };
 
 }  // namespace bvhbench

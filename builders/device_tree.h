@@ -56,12 +56,12 @@ public:
     std::vector<ForestObject> objects;  ///< One per object.
     Buffer<ForestObject> device_objects;
 
-    /// Returns a host copy of one object's tree; see `spelled_out`.
-    virtual HostTree spelled_out_object(uint object) const = 0;
-    HostTree spelled_out() const final
+    /// Returns a host copy of one object's tree; see `to_host_tree`.
+    virtual HostTree object_to_host_tree(uint object) const = 0;
+    HostTree to_host_tree() const final
     {
         assert(objects.size() == 1);
-        return spelled_out_object(0);
+        return object_to_host_tree(0);
     }
 
     virtual uint leaf_count() const = 0;  ///< Leaves of all objects.

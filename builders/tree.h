@@ -49,7 +49,7 @@ public:
     virtual std::size_t node_count() const = 0;
 
     /// Returns a host copy without padding. Slow, and never timed.
-    virtual HostTree spelled_out() const = 0;
+    virtual HostTree to_host_tree() const = 0;
 };
 
 }  // namespace bvhbench

@@ -59,7 +59,7 @@ std::uint64_t part_of_whole(std::uint64_t whole, uint share, uint of)
 /// Cuts all triangles into parts, all groups of a depth at once.
 class Partition {
 public:
-    Partition(const Placed& placed, PartitionBy by, uint parts, Ranks& ranks)
+    Partition(const PlacedTriangles& placed, PartitionBy by, uint parts, Ranks& ranks)
         : placed_(placed)
         , by_(by)
         , parts_(parts)
@@ -226,7 +226,7 @@ private:
         groups_ = std::move(halves);
     }
 
-    Placed placed_;
+    PlacedTriangles placed_;
     PartitionBy by_;
     uint parts_;
     Ranks& ranks_;
@@ -238,7 +238,8 @@ private:
 
 }  // namespace
 
-std::vector<uint> partitioned(const Placed& placed, PartitionBy by, uint parts, Ranks& ranks)
+std::vector<uint> partitioned(const PlacedTriangles& placed, PartitionBy by, uint parts,
+                              Ranks& ranks)
 {
     return Partition(placed, by, parts, ranks).parts();
 }

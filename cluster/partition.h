@@ -25,7 +25,7 @@ enum class PartitionBy { rcb, curve };
 inline constexpr std::string_view partition_names[] = {"rcb", "curve"};
 
 /// The triangles that a rank has before they are distributed.
-struct Placed {
+struct PlacedTriangles {
     std::span<const Point> centres;  ///< of the boxes; finite, without negative zeros
     std::span<const uint> ids;       ///< unique over all ranks; they order equal keys
     /// Work that each triangle stands for, at least 1 each; rcb balances their sums. Empty: 1 each. Not for curve.
@@ -34,7 +34,8 @@ struct Placed {
 
 /// Returns the part, from 0 to `parts` - 1, of each triangle of this rank. With weights of 1, sizes of rcb's parts differ by at
 /// most 1; a curve's parts are multiples of curve_block, but for the last.
-std::vector<uint> partitioned(const Placed& placed, PartitionBy by, uint parts, Ranks& ranks);
+std::vector<uint> partitioned(const PlacedTriangles& placed, PartitionBy by, uint parts,
+                              Ranks& ranks);
 
 /// Triangles of a block that `curve` does not cut: a power of two, at most a 32nd of a mean part, or 1.
 std::uint64_t curve_block(std::uint64_t triangles, uint parts);

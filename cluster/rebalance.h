@@ -25,7 +25,7 @@ struct Cut {
 };
 
 /// Cuts the scene, of which each rank passes some triangles, and moves them to their ranks. `work` of each triangle: as the weights
-/// of Placed.
+/// of PlacedTriangles.
 Cut cut(Share share, PartitionBy by, std::span<const uint> work, Ranks& ranks);
 
 }  // namespace bvhbench

@@ -68,7 +68,7 @@ void check_level(OiShape shape, uint level, const Level& wide, Claims& claims)
 
 }  // namespace
 
-std::string broken_layout(std::uint64_t leaves, OiShape shape)
+std::string layout_violation(std::uint64_t leaves, OiShape shape)
 {
     const std::vector<Level> levels = levels_over(leaves);
     Claims claims(leaves);
@@ -87,6 +87,6 @@ std::string broken_layout(std::uint64_t leaves, OiShape shape)
     return claims.wrong();
 }
 
-std::string broken_layout(uint leaves) { return broken_layout(leaves, oi_shape(leaves)); }
+std::string layout_violation(uint leaves) { return layout_violation(leaves, oi_shape(leaves)); }
 
 }  // namespace bvhbench

@@ -17,18 +17,18 @@ public:
 
     std::size_t node_count() const override { return boxes.size(); }
 
-    HostTree spelled_out() const override
+    HostTree to_host_tree() const override
     {
         HostTree tree;
         tree.nodes.resize(boxes.size());
         for (uint level = 0; level <= shape.leaf_level; ++level)
             for (uint k = 0; k < oi_real_on(shape, level); ++k)
-                spell_out(oi_first(level) + k, tree);
+                append_node(oi_first(level) + k, tree);
         return tree;
     }
 
 private:
-    void spell_out(uint i, HostTree& tree) const
+    void append_node(uint i, HostTree& tree) const
     {
         HostTree::Node& node = tree.nodes[oi_slot(shape, i)];
         node.box = boxes[oi_slot(shape, i)];

@@ -11,7 +11,7 @@ public:
     explicit OutsideTree(State& state) : state_(state) {}
 
     std::size_t node_count() const override { return state_.tree().nodes.size(); }
-    HostTree spelled_out() const override { return state_.tree(); }
+    HostTree to_host_tree() const override { return state_.tree(); }
 
 private:
     State& state_;
@@ -53,7 +53,7 @@ public:
 private:
     const Tree& run(std::string_view call, const Input& input, Queue& queue)
     {
-        state_.hold(input);
+        state_.send_frame(input);
         queue.cl().finish();  // nothing else runs beside it
         state_.run(call, queue);
         return tree_;

@@ -36,7 +36,7 @@ public:
         state_.reset();
         found_.reset();
         count_.reset();
-        state_.hold(input);
+        state_.send_frame(input);
         if (!refits_)
             return;
         Queue queue(device_);
@@ -48,7 +48,7 @@ public:
     void query(const Tree*, const Input& input, Queue& queue) override
     {
         found_.reset();
-        if (state_.hold(input))
+        if (state_.send_frame(input))
             count_.reset();
         queue.cl().finish();  // nothing else runs beside it
         if (offer_.method.builds)

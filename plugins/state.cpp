@@ -70,7 +70,7 @@ void State::start(const Input& input)
     }
 }
 
-bool State::hold(const Input& input)
+bool State::send_frame(const Input& input)
 {
     if (input.is_swept())
         throw BadUsage("a method from outside takes the triangles of one moment: " + method_.name +

@@ -21,7 +21,7 @@ public:
 
     /// Gives the process this frame, unless it has it: its mesh by `prepare`, its points by `load`. Returns whether the frame is a new
     /// one. Not timed.
-    bool hold(const Input& input);
+    bool send_frame(const Input& input);
 
     /// Runs `build`, `refit` or `query`, and adds its stages and the time of the call to the queue.
     void run(std::string_view call, Queue& queue);

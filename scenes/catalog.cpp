@@ -253,10 +253,10 @@ std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& 
     return {std::string(text)};
 }
 
-std::size_t triangles_said(std::string_view text)
+std::size_t triangles_in_name(std::string_view text)
 {
     if (const auto derived = taken_apart(text)) {
-        const std::size_t count = triangles_said(derived->base);
+        const std::size_t count = triangles_in_name(derived->base);
         return derived->how->name == "refine"
                    ? triangle_count(text, derived->words[0], most_refined)
                    : count;

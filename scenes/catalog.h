@@ -55,7 +55,7 @@ std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& 
 /// Returns the number of triangles that the name `text` says; 0 if only loading the scene tells.
 ///
 /// Throws BadUsage if no scene can have this name, as far as that is known without loading it.
-std::size_t triangles_said(std::string_view text);
+std::size_t triangles_in_name(std::string_view text);
 
 /// True if `text` is the name of a generator, for which ":N" makes a scene of N triangles.
 bool is_sized_generator(std::string_view text);

@@ -76,7 +76,7 @@ public:
 
     std::size_t node_count() const override { return 2 * triangles - 1; }
 
-    HostTree spelled_out() const override
+    HostTree to_host_tree() const override
     {
         HostTree tree;
         std::vector<const Node*> found{root};

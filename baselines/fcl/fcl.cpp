@@ -30,7 +30,7 @@ public:
 
     /// If volumes are axis-aligned boxes, uses them; they are doubles with float values. Otherwise keeps the nodes and computes
     /// boxes from the triangles, so that topologies are compared and not volumes.
-    HostTree spelled_out() const override
+    HostTree to_host_tree() const override
     {
         constexpr bool has_boxes = std::is_same_v<Volume, fcl::AABBd>;
         PlainTree tree;

@@ -38,7 +38,7 @@ public:
 
     std::size_t node_count() const override { return boxes.size(); }
 
-    HostTree spelled_out() const override
+    HostTree to_host_tree() const override
     {
         const std::size_t inner = primitives.size() - 1;
         HostTree tree;

@@ -14,7 +14,7 @@ public:
     HostTree plain;
 
     std::size_t node_count() const override { return plain.nodes.size(); }
-    HostTree spelled_out() const override { return plain; }
+    HostTree to_host_tree() const override { return plain; }
 
     /// Computes the boxes of all inner nodes from their two children. Children must come after their parent in `nodes`.
     void merge_boxes()

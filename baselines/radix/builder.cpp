@@ -78,7 +78,7 @@ cl_uint RadixTree::bind(cl::Kernel& kernel, cl_uint first) const
 }
 
 /// Lists the nodes in breadth-first order, without recursion, since a radix tree may be 95 levels deep.
-HostTree RadixTree::spelled_out_object(uint object) const
+HostTree RadixTree::object_to_host_tree(uint object) const
 {
     HostTree tree;
     tree.rounding = {format,

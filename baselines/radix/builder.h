@@ -45,7 +45,7 @@ public:
     uint most_levels() const override;
     std::string_view access_header() const override;
     cl_uint bind(cl::Kernel& kernel, cl_uint first) const override;
-    HostTree spelled_out_object(uint object) const override;
+    HostTree object_to_host_tree(uint object) const override;
 };
 
 /// Everything of a radix tree builder but the hierarchy, which derived classes add.

@@ -28,7 +28,7 @@ BoxRounding ImplicitTree::rounding() const
     return {format, format->has_cells() ? cells.download(queue->cl()).front() : SceneCells{}};
 }
 
-HostTree ImplicitTree::spelled_out_object(uint object) const
+HostTree ImplicitTree::object_to_host_tree(uint object) const
 {
     const ForestObject& own = objects.at(object);
     const uint own_leaves = own.leaves;

@@ -25,7 +25,7 @@ public:
     Buffer<uint> ids;
 
     std::size_t node_count() const override;
-    HostTree spelled_out_object(uint object) const override;
+    HostTree object_to_host_tree(uint object) const override;
 
     /// Returns how the leaf boxes were last rounded. Blocks.
     BoxRounding rounding() const;

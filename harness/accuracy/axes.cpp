@@ -89,7 +89,7 @@ void Axis::measure(const AxisRun& run) const
         });
         if (failure.empty())
             continue;
-        Subject all{accuracy_cell(name, "all", facts)};
+        Measurement all{accuracy_cell(name, "all", facts)};
         run.engine().refuse(all, is_there ? Cell::Status::failed : Cell::Status::skipped, failure);
         run.add(std::move(all.cell));
     }
@@ -106,40 +106,40 @@ Cell accuracy_cell(std::string_view axis, std::string_view method, SceneFacts in
     return cell;
 }
 
-void judge(Cell& cell, std::string_view reference, bool promises, const std::string& wrong)
+void judge(Cell& cell, std::string_view reference, bool must_be_right, const std::string& wrong)
 {
     cell.check.against = reference;
-    cell.check.detail = promises ? wrong : "";
-    cell.check.verdict = !promises       ? Check::Verdict::counted
+    cell.check.detail = must_be_right ? wrong : "";
+    cell.check.verdict = !must_be_right  ? Check::Verdict::counted
                          : wrong.empty() ? Check::Verdict::agrees
                                          : Check::Verdict::differs;
 }
 
-void judge_errors(Cell& cell, std::string_view reference, bool promises)
+void judge_errors(Cell& cell, std::string_view reference, bool must_be_right)
 {
     const auto count = [&](const char* name) {
         return static_cast<std::uint64_t>(cell.counters.at(name));
     };
     const Differences wrong{count("missed_count"), count("false_count")};
-    judge(cell, reference, promises, wrong == Differences{} ? "" : wrong.text());
+    judge(cell, reference, must_be_right, wrong == Differences{} ? "" : wrong.text());
 }
 
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
                      std::span<const AxisMethod> methods)
 {
     Engine engine = run.engine();
-    std::vector<Subject> subjects;
-    subjects.reserve(methods.size());  // no reallocation: methods may keep references
+    std::vector<Measurement> measurements;
+    measurements.reserve(methods.size());  // no reallocation: methods may keep references
     for (const AxisMethod& method : methods) {
         if (!run.task.wants(input.name, method.name))
             continue;
-        Subject& one = subjects.emplace_back();
+        Measurement& one = measurements.emplace_back();
         one.cell = accuracy_cell(axis, method.name, input);
         one.cell.builder = method.builder;
         one.cell.collider = method.collider;
-        engine.settle(one, [&] { method.settle(one); });
+        engine.prepare(one, [&] { method.prepare(one); });
     }
-    for (Cell& cell : engine.sample(subjects))
+    for (Cell& cell : engine.sample(measurements))
         run.add(std::move(cell));
 }
 

@@ -85,10 +85,10 @@ struct AxisMethod {
     std::string name;
     BuilderChoice builder = {.name = "none"};
     ColliderChoice collider = {};
-    std::function<void(Subject&)> settle;  ///< as `work` of Engine::settle
+    std::function<void(Measurement&)> prepare;  ///< as `work` of Engine::prepare
 };
 
-/// Returns a method of the fastest pipeline on this kind of device, as far as is known, without its `settle`. Pairs of triangles
+/// Returns a method of the fastest pipeline on this kind of device, as far as is known, without its `prepare`. Pairs of triangles
 /// that share a vertex are left out.
 AxisMethod fastest_method(const Session& session, std::string name, std::string boxes,
                           std::string narrow);
@@ -99,10 +99,10 @@ void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts
 
 /// Writes the verdict of a comparison with `reference`: `counted` if the method may give wrong answers, else by `wrong`, which
 /// says what is wrong and is empty if nothing is.
-void judge(Cell& cell, std::string_view reference, bool promises, const std::string& wrong);
+void judge(Cell& cell, std::string_view reference, bool must_be_right, const std::string& wrong);
 
 /// As above, by the cell's counters missed_count and false_count.
-void judge_errors(Cell& cell, std::string_view reference, bool promises);
+void judge_errors(Cell& cell, std::string_view reference, bool must_be_right);
 
 /// Counts of triangles with equal codes.
 struct CodeCounts {
@@ -149,8 +149,8 @@ long double cost_in_long_double(const HostTree& tree);
 using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
 
 /// Prepares a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
-void settle_pipeline(Session& session, const Input& input, Subject& one,
-                     const JudgePipeline& judge);
+void prepare_pipeline(Session& session, const Input& input, Measurement& one,
+                      const JudgePipeline& judge);
 
 /// Compares the pairs or contacts found with the correct ones. Writes the counters missed_count and false_count, and returns both.
 Differences count_errors(const PairList& found, const PairList& right, Cell& cell);

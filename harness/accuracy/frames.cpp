@@ -63,7 +63,7 @@ void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& in
         input.points, input.faces, touching_pairs(input.points, input.faces, false).pairs(), false);
     std::vector<AxisMethod> methods;
     for (const FrameSetting& setting : settings) {
-        const auto settle = [&](Subject& one) {
+        const auto prepare = [&](Measurement& one) {
             const auto rounded =
                 setting.input_bits == 0
                     ? nullptr
@@ -77,11 +77,11 @@ void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& in
                 cell.counters["right_contacts_count"] = static_cast<double>(right.size());
                 judge_errors(cell, "CGAL boxes, CGAL", setting.is_exact());
             };
-            settle_pipeline(run.session, rounded ? rounded->input : input, one, judge);
+            prepare_pipeline(run.session, rounded ? rounded->input : input, one, judge);
         };
         methods.push_back(
             fastest_method(run.session, setting.method, setting.boxes, setting.narrow));
-        methods.back().settle = settle;
+        methods.back().prepare = prepare;
     }
     measure_methods(run, "frames", scene, methods);
 }

@@ -99,7 +99,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
     Session& session = run.session;
     std::vector<AxisMethod> methods;
     for (const NarrowMethod& method : moment_narrow_methods()) {
-        const auto settle = [&](Subject& one) {
+        const auto prepare = [&](Measurement& one) {
             const std::shared_ptr<NarrowPhase> narrow = compiled(session, method);
             narrow->reserve(piece.mesh.faces.size());
             const PairList first = contacts_of(*narrow, piece, session);
@@ -119,7 +119,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
                 count_piece(*narrow, found, piece, session.queue(), one.cell);
             };
         };
-        methods.push_back({.name = std::string(method.name), .settle = settle});
+        methods.push_back({.name = std::string(method.name), .prepare = prepare});
     }
     SceneFacts facts;
     facts.name = name;
@@ -182,7 +182,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
         cell.scene.source = "pairs: " + of.summary;
         cell.scene.content_hash = hash.get();
         cell.accuracy.seed = run.task.seed;
-        Subject all{std::move(cell)};
+        Measurement all{std::move(cell)};
         if (!failure.empty())
             run.engine().refuse(all, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                                 failure);

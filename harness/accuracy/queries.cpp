@@ -34,7 +34,7 @@ void add_forest_cost(Session& session, const Input& input, Cell& cell)
     const auto& forest = dynamic_cast<const DeviceTree&>(*built);
     double cost = 0, area = 0;
     for (uint object = 0; object < forest.objects.size(); ++object) {
-        const HostTree tree = forest.spelled_out_object(object);
+        const HostTree tree = forest.object_to_host_tree(object);
         const double root = surface_area(tree.nodes.front().box);
         if (const auto sums = area_sums(tree)) {
             cost += root * sums->cost();
@@ -60,15 +60,16 @@ AxisMethod fastest_method(const Session& session, std::string name, std::string 
             .collider = {.name = session.device().is_cpu() ? "group" : "block",
                          .keep_adjacent = false,
                          .narrow = std::move(narrow)},
-            .settle = {}};
+            .prepare = {}};
 }
 
-void settle_pipeline(Session& session, const Input& input, Subject& one, const JudgePipeline& judge)
+void prepare_pipeline(Session& session, const Input& input, Measurement& one,
+                      const JudgePipeline& judge)
 {
     const auto pipeline =
         std::make_shared<Pipeline>(session, one.cell.builder, one.cell.collider, input);
     pipeline->begin_frame({});
-    pipeline->settle(input);
+    pipeline->prepare(input);
     one.cell.counters = pipeline->counters();
     one.once = [&input, pipeline] { return pipeline->once(input); };
     one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
@@ -99,8 +100,8 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
     const PairList right = touching_pairs(input.points, input.faces, true);
     std::vector<AxisMethod> methods;
     const auto add = [&](std::string name, const BuilderChoice& builder, const OrderEntry* codes) {
-        const auto settle = [&, codes](Subject& one) {
-            settle_pipeline(session, input, one, [&](const Pipeline& pipeline, Cell& cell) {
+        const auto prepare = [&, codes](Measurement& one) {
+            prepare_pipeline(session, input, one, [&](const Pipeline& pipeline, Cell& cell) {
                 count_pairs(pipeline, right, cell);
                 judge_errors(cell, pairs_oracle, true);
             });
@@ -112,7 +113,7 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
             one.cell.counters["duplicates_count"] = static_cast<double>(counts.duplicates);
             one.cell.counters["longest_run_count"] = static_cast<double>(counts.longest_run);
         };
-        methods.push_back({std::move(name), builder, {.name = "leaf"}, settle});
+        methods.push_back({std::move(name), builder, {.name = "leaf"}, prepare});
     };
     for (const OrderEntry& order : order_catalog()) {
         if (order.medians != Medians::nowhere)
@@ -139,7 +140,7 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
         const PairList right = overlapping_pairs_in_doubles(wide, input.faces);
         std::vector<AxisMethod> methods;
         const auto add = [&](const char* name, Doubles how) {
-            const auto settle = [&, how](Subject& one) {
+            const auto prepare = [&, how](Measurement& one) {
                 const auto floats = upload_rounded(run.session, rounded(wide, how), input);
                 // The judge keeps the input until all samples are taken.
                 const auto judge = [&, floats](const Pipeline& pipeline, Cell& cell) {
@@ -147,9 +148,9 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
                     cell.counters["right_pairs_count"] = static_cast<double>(right.size());
                     judge_errors(cell, "boxes of doubles", wrong.missed > 0);
                 };
-                settle_pipeline(run.session, floats->input, one, judge);
+                prepare_pipeline(run.session, floats->input, one, judge);
             };
-            methods.push_back({name, {.name = "oibvh-multi"}, {.name = "leaf"}, settle});
+            methods.push_back({name, {.name = "oibvh-multi"}, {.name = "leaf"}, prepare});
         };
         add("f32", Doubles::as_is);
         add("f32-recentred", Doubles::recentred);
@@ -186,12 +187,12 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
     std::vector<AxisMethod> methods;
     for (const BoxFormat& format : box_formats()) {
         const std::string name(format.name);
-        const auto settle = [&](Subject& one) {
-            settle_pipeline(run.session, input, one, judge);
+        const auto prepare = [&](Measurement& one) {
+            prepare_pipeline(run.session, input, one, judge);
             one.cell.counters["node_bytes"] = static_cast<double>(format.box_bytes());
         };
         methods.push_back(fastest_method(run.session, name, name, "exact"));
-        methods.back().settle = settle;
+        methods.back().prepare = prepare;
     }
     measure_methods(run, "boxes", scene, methods);
 }

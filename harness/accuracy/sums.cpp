@@ -83,8 +83,8 @@ constexpr SumMethod methods[] = {
 /// Bound on the relative error of the method in use: a few roundings of doubles for any number of nodes.
 constexpr double most_of_ours = 1e-14;
 
-void settle(const SumMethod& method, const HostTree& tree, long double right, Queue& queue,
-            Subject& one)
+void prepare(const SumMethod& method, const HostTree& tree, long double right, Queue& queue,
+             Measurement& one)
 {
     const long double cost = method.cost(tree);
     const double error = static_cast<double>(std::fabs((cost - right) / right));
@@ -114,14 +114,14 @@ long double cost_in_long_double(const HostTree& tree)
 void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     require_host_memory("a tree", check_bytes(input.triangle_count()));
-    const HostTree tree = built_tree(run.session, {.name = "oibvh-multi"}, input).spelled_out();
+    const HostTree tree = built_tree(run.session, {.name = "oibvh-multi"}, input).to_host_tree();
     const long double right = cost_in_long_double(tree);
     if (!(right > 0))
         throw Unavailable(scene.name + " has no surface area cost: its box has no area");
     std::vector<AxisMethod> methods;
     for (const SumMethod& method : sum_methods())
-        methods.push_back({.name = std::string(method.name), .settle = [&](Subject& one) {
-                               settle(method, tree, right, run.session.queue(), one);
+        methods.push_back({.name = std::string(method.name), .prepare = [&](Measurement& one) {
+                               prepare(method, tree, right, run.session.queue(), one);
                            }});
     measure_methods(run, "sums", scene, methods);
 }

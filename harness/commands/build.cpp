@@ -54,7 +54,7 @@ public:
         const Output dumped(dump_, "--dump", rules);
         ResultFile results(Output(json_, "--json", rules), common.force,
                            measured_facts(session, invocation.words, costs_), watchdog::run_id());
-        watchdog::go_on_with(results.run_id());
+        watchdog::resume_after_crash(results.run_id());
         Run(session, results, costs_).experiment(experiment(choices));
         results.finish(session.end_of_run());
         const int code = results.exit_code();
@@ -90,7 +90,7 @@ private:
         builder.reserve(input.triangle_count());
         const Tree* tree = nullptr;
         session.build_once(builder, input, Start::from_triangles, &tree);
-        output.replace(dump_text(tree->spelled_out()));
+        output.replace(dump_text(tree->to_host_tree()));
     }
 
     SeveralNames names_;

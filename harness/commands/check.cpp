@@ -97,7 +97,7 @@ private:
         std::string wrong, refusal;
         try {
             bool refused = false;
-            wrong = broken_contract(session_, builder, input, oracle, &refused);
+            wrong = contract_violation(session_, builder, input, oracle, &refused);
             if (refused)
                 refusal = find_builder(builder.name).may_refuse;
         } catch (const BadUsage& error) {
@@ -123,9 +123,9 @@ private:
 
 void check_hard_inputs(Checker& checker)
 {
-    Progress progress(hard_inputs().size() * telling_sizes().size());
+    Progress progress(hard_inputs().size() * critical_sizes().size());
     for (const HardInput& input : hard_inputs()) {
-        for (const std::size_t size : telling_sizes()) {
+        for (const std::size_t size : critical_sizes()) {
             progress.step(std::string(input.name) + ", " + std::to_string(size) + " triangles");
             const Mesh mesh = input.make(size);
             checker.over(mesh.points, mesh.faces);
@@ -186,7 +186,7 @@ private:
 
 extern const CommandEntry check_command = {
     "check",
-    holding,
+    checking,
     "Check every contract of every builder, without timing",
     "The contract of builders/builder.h, over inputs that are hard on builders.",
     {{"bvhbench check", "all builders"},

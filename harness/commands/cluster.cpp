@@ -126,7 +126,7 @@ private:
             check_pairs_path(contacts_, {});
         if (task_.wants_contacts && task_.pipeline.collider.narrow == "none")
             throw BadUsage("--contacts takes a narrow phase: --narrow exact");
-        triangles_said(task_.scene);  // throws for a name that no scene can have
+        triangles_in_name(task_.scene);  // throws for a name that no scene can have
         const std::optional<unsigned> started = ranks_started();
         if (!frames_.empty())
             task_.frames = frame_range(frames_);

@@ -57,7 +57,7 @@ public:
         ResultFile results(std::move(json), common.force, measured_facts(session, invocation.words),
                            watchdog::run_id());
         PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept, task.swept);
-        watchdog::go_on_with(results.run_id());
+        watchdog::resume_after_crash(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.end_of_run());
         print_tables(results.text(), common);

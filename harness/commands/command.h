@@ -55,7 +55,7 @@ struct CommandEntry {
 
 constexpr std::string_view measuring = "Measure";
 constexpr std::string_view looking = "Look at results";
-constexpr std::string_view holding = "Check";
+constexpr std::string_view checking = "Check";
 constexpr std::string_view knowing = "Know what there is";
 
 /// Returns every command, in the order of the help.

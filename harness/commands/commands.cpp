@@ -5,7 +5,7 @@ namespace bvhbench {
 
 extern const CommandEntry build_command, collide_command, cluster_command, run_command,
     accuracy_command, tune_command, list_command, check_command, stress_command, facts_command,
-    scene_command, settle_command, view_command;
+    scene_command, expand_command, view_command;
 
 std::span<const CommandEntry> commands()
 {
@@ -39,12 +39,12 @@ std::span<const CommandEntry> commands()
         {"data", looking,
          "List the data sets that scenes are made of, or download some into the data folder"},
         check_command,
-        {"smoke", holding,
+        {"smoke", checking,
          "Run every builder and collider over small scenes and compare all with a baseline; 1 "
          "if it differs"},
         stress_command,
         facts_command,
-        settle_command,
+        expand_command,
         view_command,
     };
     return all;

@@ -67,7 +67,7 @@ public:
         const auto begin = [&] {
             results.begin(results.has_begun() ? Json()
                                               : measured_facts(session, invocation.words, costs_));
-            watchdog::go_on_with(results.run_id());
+            watchdog::resume_after_crash(results.run_id());
             session.take_turns(turns_, results.run_id());
         };
         if (!run.scenes(plan, scenes, filter, begin))

@@ -57,7 +57,7 @@ private:
 
 extern const CommandEntry stress_command = {
     "stress",
-    holding,
+    checking,
     "Check builders, colliders and libraries over scenes that are hard on them",
     "1 if one of ours is wrong, whatever libraries do.",
     {{"bvhbench stress --quick", "minutes"},

@@ -25,7 +25,7 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
 {
     for (const Parameter* parameter : result.searched)
         file.values.erase(std::string(parameter->name));
-    for (const Tried& kept : result.kept)
+    for (const TrialResult& kept : result.kept)
         file.values[std::string(kept.parameter->name)] = {
             .value = kept.value,
             .target = task.target,

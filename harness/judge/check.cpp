@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/judge/check.h"
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "harness/base/failure.h"
@@ -10,7 +10,7 @@ namespace bvhbench {
 namespace {
 
 /// Name of the check for trees that have no oracle.
-constexpr std::string_view promises_name = "contract";
+constexpr std::string_view contract_name = "contract";
 
 /// True if `tree` is `before` with other boxes, and boxes may be larger than they must: else they are compared bit for bit.
 bool has_topology_of(const HostTree& tree, const HostTree& before, std::span<const Point> points,
@@ -20,7 +20,7 @@ bool has_topology_of(const HostTree& tree, const HostTree& before, std::span<con
            tree_hash(refitted(tree, points, faces)) == tree_hash(refitted(before, points, faces));
 }
 
-std::string broken_footprint(const Builder& builder, std::size_t triangles)
+std::string footprint_violation(const Builder& builder, std::size_t triangles)
 {
     const Footprint predicted = builder.footprint(triangles);
     const Footprint reserved = builder.reserved();
@@ -34,17 +34,18 @@ std::string broken_footprint(const Builder& builder, std::size_t triangles)
 }
 
 /// Returns what is wrong with a refit, to moved points, of the tree that `builder` has just left; empty if it is right.
-std::string broken_refit(Session& session, Builder& builder, const Input& input, const Tree& built)
+std::string refit_violation(Session& session, Builder& builder, const Input& input,
+                            const Tree& built)
 {
-    const HostTree before = built.spelled_out();
+    const HostTree before = built.to_host_tree();
     std::vector<Point> moved;  // in reverse order, with permuted axes
     for (std::size_t k = input.points.size(); k-- > 0;)
         moved.push_back({input.points[k].y, input.points[k].z, input.points[k].x});
     const Input moved_input = upload(session.device(), session.queue(), moved, input.faces);
     const Tree& tree = builder.refit(moved_input, session.queue());
     session.queue().finish();
-    const HostTree after = tree.spelled_out();
-    const std::string wrong = broken_promise(after, moved, input.faces);
+    const HostTree after = tree.to_host_tree();
+    const std::string wrong = invariant_violation(after, moved, input.faces);
     if (!wrong.empty())
         return "after a refit, " + wrong;
     const bool is_same = tree_hash(after) == tree_hash(refitted(before, moved, input.faces)) ||
@@ -75,7 +76,7 @@ std::shared_future<std::uint64_t> Oracle::begin(std::string_view reference,
             Queue queue(session_.device());
             const Tree& tree = builder->build(input_, queue, Start::from_triangles);
             queue.finish();
-            return tree_hash(rounded_to(tree.spelled_out(), find_box_format(boxes)));
+            return tree_hash(rounded_to(tree.to_host_tree(), find_box_format(boxes)));
         };
     if (!hash.valid())
         hash = std::async(std::launch::async, built);
@@ -92,9 +93,9 @@ std::uint64_t check_bytes(std::uint64_t triangles)
 {
     // Both trees spelled out, two nodes a triangle; the sources of both: boxes of all nodes and of leaves, and ids; the
     // reference's codes.
-    constexpr std::uint64_t spelled_out = 2 * sizeof(HostTree::Node);
+    constexpr std::uint64_t host_tree_bytes = 2 * sizeof(HostTree::Node);
     constexpr std::uint64_t kept = 3 * sizeof(Aabb) + sizeof(uint);
-    return triangles * (2 * (spelled_out + kept) + 2 * sizeof(ulong));
+    return triangles * (2 * (host_tree_bytes + kept) + 2 * sizeof(ulong));
 }
 
 Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
@@ -102,11 +103,11 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
 {
     using enum Check::Verdict;
     const std::string_view reference = find_builder(builder.name).oracle;
-    Check check{agrees, std::string(reference.empty() ? promises_name : reference), {}, {}};
+    Check check{agrees, std::string(reference.empty() ? contract_name : reference), {}, {}};
     if (!reference.empty())
         oracle.begin(reference, builder.order, builder.boxes);
     check.tree_hash = tree_hash(tree);
-    const std::string wrong = broken_promise(tree, input.points, input.faces);
+    const std::string wrong = invariant_violation(tree, input.points, input.faces);
     if (!wrong.empty())
         check.find_wrong(wrong);
     if (!wrong.empty() || reference.empty())
@@ -132,7 +133,7 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
     before.tree_hash = tree_hash(tree);
     if (before.tree_hash == expected)
         return before;
-    const std::string wrong = broken_promise(tree, input.points, input.faces);
+    const std::string wrong = invariant_violation(tree, input.points, input.faces);
     if (wrong.empty() && has_topology_of(tree, built, input.points, input.faces))
         return before;
     before.find_wrong(!wrong.empty() ? wrong
@@ -143,12 +144,13 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
 
 Check check_again(const Tree& tree, const Input& input, Check before)
 {
-    const HostTree plain = tree.spelled_out();
+    const HostTree plain = tree.to_host_tree();
     const std::uint64_t hash = tree_hash(plain);
     if (before.verdict == Check::Verdict::differs || hash == before.tree_hash)
         return before;
     if (plain.boxes_may_be_larger) {
-        if (std::string wrong = broken_promise(plain, input.points, input.faces); !wrong.empty())
+        if (std::string wrong = invariant_violation(plain, input.points, input.faces);
+            !wrong.empty())
             before.find_wrong(wrong);
         return before;
     }
@@ -158,17 +160,17 @@ Check check_again(const Tree& tree, const Input& input, Check before)
     return before;
 }
 
-std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
-                            Oracle& oracle, bool* refused)
+std::string contract_violation(Session& session, const BuilderChoice& choice, const Input& input,
+                               Oracle& oracle, bool* refused)
 try {
     if (refused != nullptr)
         *refused = false;
     const Tree* tree = &built_tree(session, choice, input);
     Builder& builder = session.builder(choice);
-    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
+    const Check check = check_tree(tree->to_host_tree(), input, choice, oracle);
     if (check.verdict != Check::Verdict::agrees)
         return check.detail;
-    std::string wrong = broken_footprint(builder, input.triangle_count());
+    std::string wrong = footprint_violation(builder, input.triangle_count());
     const auto build_again = [&](Start start, const char* which) {
         if (!wrong.empty())
             return;
@@ -181,7 +183,7 @@ try {
     if (find_builder(choice.name).outside == nullptr)
         build_again(Start::from_sorted_leaves, "the build from sorted leaves");
     if (wrong.empty() && builder.can_refit()) {
-        wrong = broken_refit(session, builder, input, *tree);
+        wrong = refit_violation(session, builder, input, *tree);
         build_again(Start::from_triangles, "the build after a refit");
     }
     return wrong;

@@ -41,7 +41,7 @@ const Tree& built_tree(Session& session, const BuilderChoice& choice, const Inpu
 /// Returns an upper estimate of the host memory, in bytes, that check_tree takes for trees over `triangles` triangles.
 std::uint64_t check_bytes(std::uint64_t triangles);
 
-/// Returns the verdict on a tree over the oracle's input: whether it is valid (broken_promise) and, if the builder's catalog
+/// Returns the verdict on a tree over the oracle's input: whether it is valid (invariant_violation) and, if the builder's catalog
 /// entry names an oracle, whether it equals the reference bit for bit.
 Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
                  Oracle& oracle);
@@ -57,11 +57,11 @@ Check check_again(const Tree& tree, const Input& input, Check before);
 
 /// Returns the first requirement that a builder breaks over `input`, as a sentence; empty if it meets all of them:
 ///
-/// it reserves as much memory as it predicted; its tree is valid (broken_promise) and equals the oracle's if its entry names
+/// it reserves as much memory as it predicted; its tree is valid (invariant_violation) and equals the oracle's if its entry names
 /// one; a second build and a build from sorted leaves give the same tree; a refit to moved points keeps the topology and makes
 /// every box right; a build after that refit gives the first tree again.
 /// A builder whose entry has may_refuse passes if it throws Unavailable; `refused`, if given, is set to true in that case.
-std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
-                            Oracle& oracle, bool* refused = nullptr);
+std::string contract_violation(Session& session, const BuilderChoice& choice, const Input& input,
+                               Oracle& oracle, bool* refused = nullptr);
 
 }  // namespace bvhbench

@@ -109,6 +109,6 @@ constexpr std::size_t sizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 255, 256, 2
 
 std::span<const HardInput> hard_inputs() { return inputs; }
 
-std::span<const std::size_t> telling_sizes() { return sizes; }
+std::span<const std::size_t> critical_sizes() { return sizes; }
 
 }  // namespace bvhbench

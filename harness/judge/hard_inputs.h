@@ -19,6 +19,6 @@ struct HardInput {
 std::span<const HardInput> hard_inputs();
 
 /// Returns numbers of triangles one below, at and one above powers of two, where implicit layouts fail first.
-std::span<const std::size_t> telling_sizes();
+std::span<const std::size_t> critical_sizes();
 
 }  // namespace bvhbench

@@ -27,7 +27,7 @@ fs::path file_of(std::uint64_t key)
 }
 
 /// Returns the text of a file: one line that ends in a hash of what is before it.
-std::string text_of(std::uint64_t key, const RightFacts& facts)
+std::string text_of(std::uint64_t key, const AnswerFacts& facts)
 {
     const std::string line = "bvhbench answer " + hex(key) + ' ' + hex(facts.set.count) + ' ' +
                              hex(facts.set.low) + ' ' + hex(facts.set.high) + ' ' +
@@ -39,13 +39,13 @@ std::string text_of(std::uint64_t key, const RightFacts& facts)
 
 }  // namespace
 
-std::optional<RightFacts> kept_answer(std::uint64_t key)
+std::optional<AnswerFacts> kept_answer(std::uint64_t key)
 {
     std::ifstream file(file_of(key), std::ios::binary);
     std::string text(4096, '\0');
     file.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(file.gcount()));
-    RightFacts facts;
+    AnswerFacts facts;
     const bool is_answer = RE2::FullMatch(
         text,
         "bvhbench answer \\w{16} (\\w{16}) (\\w{16}) (\\w{16}) (\\w{16}) (\\w{16}) \\w{16}\\n",
@@ -56,7 +56,7 @@ std::optional<RightFacts> kept_answer(std::uint64_t key)
     return facts;
 }
 
-void keep_answer(std::uint64_t key, const RightFacts& facts)
+void keep_answer(std::uint64_t key, const AnswerFacts& facts)
 try {
     const fs::path path = file_of(key);
     if (path.empty() || facts.set.count < least_pairs)

@@ -2,7 +2,7 @@
 //
 // Quality metrics of trees, computed from the spelled-out tree in double, with compensated sums.
 //
-// No function recurses, because a tree may be as deep as it has leaves. All expect a valid tree (builders/spell_out.h). A metric
+// No function recurses, because a tree may be as deep as it has leaves. All expect a valid tree (builders/host_tree.h). A metric
 // without a value, such as a ratio to a root without area, is left out and never NaN.
 #pragma once
 

@@ -108,7 +108,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
             evidence.of_sample = pairs_at_first(ranks, part.frame.pairs_of(sample));
             evidence.right_of_sample = pairs_at_first(ranks, part.frame.right_pairs_of(sample));
         }
-        tell_first(ranks, session.device().name(), std::move(part.own), result.ranks);
+        collect_at_first(ranks, session.device().name(), std::move(part.own), result.ranks);
     }
     if (!by_one_device) {
         const auto other =

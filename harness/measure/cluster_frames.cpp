@@ -109,7 +109,7 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask&
         part.own.device_bytes = *session.device().most_taken;
         result.pairs = result.frames.back().pairs;
         result.contacts = result.frames.back().contacts;
-        tell_first(ranks, session.device().name(), std::move(part.own), result.ranks);
+        collect_at_first(ranks, session.device().name(), std::move(part.own), result.ranks);
     }
     if (!is_first)
         return;

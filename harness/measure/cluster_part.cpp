@@ -54,8 +54,8 @@ Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& t
     return share;
 }
 
-void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
-                std::vector<ClusterRank>& all)
+void collect_at_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
+                      std::vector<ClusterRank>& all)
 {
     const std::uint64_t numbers[] = {own.triangles, own.predicted_bytes, own.device_bytes,
                                      host_memory_facts().peak};

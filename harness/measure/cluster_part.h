@@ -28,8 +28,8 @@ Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, Scene
 Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& took_ns);
 
 /// Adds what each rank has to the result, by rank; at the first rank only.
-void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
-                std::vector<ClusterRank>& all);
+void collect_at_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
+                      std::vector<ClusterRank>& all);
 
 /// Returns the pairs of all ranks at the first, and none elsewhere.
 std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own);

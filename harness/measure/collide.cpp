@@ -39,7 +39,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     Input input = upload_frame(session, scene.with_frame(frames.first),
                                scene.later.empty() ? frames.first : 0);
     Contest contest(task.sampling.race);
-    std::vector<Running> all;
+    std::vector<PipelineState> all;
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
@@ -48,7 +48,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
             input.points = scene.frames[frame];
             input.device_points.upload(session.queue().cl(), input.points);
         } else if (frame > frames.first) {  // other triangles: nothing of the frame before serves
-            for (Running& one : all)
+            for (PipelineState& one : all)
                 one.pipeline.reset();
             input = upload_frame(session, shown, 0);
         }

@@ -66,7 +66,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                    const PassCells& passes);
 
 /// A pipeline that runs over the frames of a scene. It is created when it first runs.
-struct Running {
+struct PipelineState {
     PipelineChoice choice;
     std::unique_ptr<Pipeline> pipeline = nullptr;
     Cell::Status status = Cell::Status::measured;  ///< status of its cell in the last frame
@@ -90,7 +90,7 @@ struct FrameOfPipelines {
 
 /// Runs all pipelines over a frame, one cell each: prepares and checks each, samples all interleaved, checks again. Writes the
 /// last pipeline's result to `found`. A pipeline that fails has the same reason in the cells of all later frames.
-std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
+std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<PipelineState> all,
                             const FrameOfPipelines& frame, int& order, Found& found);
 
 /// Returns a small scene as JSON, for a report that draws it in three dimensions. It has the tree that a builder left over the

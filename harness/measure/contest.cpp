@@ -99,13 +99,14 @@ void Contest::count_areas(const Pipeline& pipeline, const Input& input, Cell& ce
     if (race_ == Race::none || pipeline.tree() == nullptr || input.objects.size() > 1 ||
         cell.check.verdict == Check::Verdict::differs)
         return;
-    if (const std::optional<AreaSums> sums = area_sums(pipeline.tree()->spelled_out())) {
+    if (const std::optional<AreaSums> sums = area_sums(pipeline.tree()->to_host_tree())) {
         cell.counters["sah_inner"] = sums->inner;
         cell.counters["sah_leaf"] = sums->leaf;
     }
 }
 
-Contest::Place Contest::look(const Cell& cell, const std::vector<StageTime>& before, double slower)
+Contest::Place Contest::compare(const Cell& cell, const std::vector<StageTime>& before,
+                                double slower)
 {
     if (race_ == Race::none || !tells(cell))
         return Place::in_the_race;

@@ -35,7 +35,7 @@ public:
     ///     cell      with its samples so far
     ///     before    stages of the run before them; empty: unknown
     ///     slower    drift: the time of the best cell now, divided by its earlier time
-    Place look(const Cell& cell, const std::vector<StageTime>& before = {}, double slower = 1);
+    Place compare(const Cell& cell, const std::vector<StageTime>& before = {}, double slower = 1);
 
     /// Returns why a cell that was not run yet cannot win: the stages that it has in common with cells that were run take longer
     /// than `hopeless` times the best of those. Empty if it may win, and always in a race for memory.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t sample_size = 10'000;
 
-std::string told(const PairFacts& facts)
+std::string facts_text(const PairFacts& facts)
 {
     return std::to_string(facts.count) + " pairs of the hash " + hex(facts.low) + hex(facts.high);
 }
@@ -37,7 +37,7 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
                                   .among = choice.among,
                                   .keep_adjacent = choice.keep_adjacent};
     Pipeline second(session, {.name = is_grid ? "oibvh-multi" : "none"}, other, input);
-    second.settle(input);
+    second.prepare(input);
     const PairFacts others = facts_on_device(session, second);
 
     require_host_memory("checking the pairs of a sample", input.faces.size() * sizeof(Aabb));
@@ -46,9 +46,9 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
 
     Check check = {.verdict = Check::Verdict::agrees,
                    .against = other.name + ", brute over a sample",
-                   .detail = "too many to list: " + told(facts)};
+                   .detail = "too many to list: " + facts_text(facts)};
     if (others != facts)
-        check.find_wrong(other.name + " found " + told(others));
+        check.find_wrong(other.name + " found " + facts_text(others));
     if (of_sample != right || of_sample.surplus() > 0)
         check.find_wrong("brute force found " + std::to_string(right.size()) +
                          " pairs with one of " + std::to_string(sample.ids().size()) +

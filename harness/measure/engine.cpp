@@ -24,12 +24,12 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 /// Samples on the session's device, with such caches. Runs the calibration between samples if there are enough of them. Throws as
 /// take_samples does.
-std::vector<Taken> session_samples(Session& session, std::span<const Timed> cells,
-                                   const SamplingPlan& plan, Caches caches, int& order)
+std::vector<CellSamples> session_samples(Session& session, std::span<const CellToSample> cells,
+                                         const SamplingPlan& plan, Caches caches, int& order)
 {
     const std::string failure = reason_of_failure([&] { session.set_caches(caches); });
     if (!failure.empty())
-        return std::vector<Taken>(cells.size(), Taken{{}, failure, Stopped::failure});
+        return std::vector<CellSamples>(cells.size(), CellSamples{{}, failure, Stopped::failure});
     struct Hot {  // work outside the samples runs with warm caches
         Session& session;
         ~Hot() { session.set_caches(Caches::hot); }
@@ -53,76 +53,76 @@ std::int64_t host_ns(const std::function<void()>& work)
     return ns;
 }
 
-void Engine::refuse(Subject& subject, Cell::Status status, std::string reason)
+void Engine::refuse(Measurement& measurement, Cell::Status status, std::string reason)
 {
     session_.renew_queue();
-    subject.cell.status = status;
-    subject.cell.reason = std::move(reason);
-    subject.cell.samples.clear();
+    measurement.cell.status = status;
+    measurement.cell.reason = std::move(reason);
+    measurement.cell.samples.clear();
 }
 
-void Engine::settle(Subject& subject, const std::function<void()>& work)
+void Engine::prepare(Measurement& measurement, const std::function<void()>& work)
 {
-    if (std::string why = watchdog::given_up(subject.number); !why.empty())
-        return refuse(subject, Cell::Status::failed, std::move(why));
+    if (std::string why = watchdog::given_up(measurement.number); !why.empty())
+        return refuse(measurement, Cell::Status::failed, std::move(why));
     if (const auto& is_wanted = session_.other_sampler.is_wanted;
-        is_wanted && !is_wanted(subject.cell))
-        return refuse(subject, Cell::Status::skipped, "not wanted");
-    const watchdog::Hand hand(subject.number);
-    subject.cell.warm_up = plan_.warm_up;
+        is_wanted && !is_wanted(measurement.cell))
+        return refuse(measurement, Cell::Status::skipped, "not wanted");
+    const watchdog::CellScope scope(measurement.number);
+    measurement.cell.warm_up = plan_.warm_up;
     const std::int64_t compiled_ns = session_.programs().compile_ns();
     bool cannot_be = false;
     std::string failure = reason_of_failure(work, &cannot_be);
-    subject.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
+    measurement.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
     if (!failure.empty())
-        refuse(subject, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
+        refuse(measurement, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                std::move(failure));
 }
 
-bool Engine::look(Subject& subject, Contest& contest)
+bool Engine::sample_first(Measurement& measurement, Contest& contest)
 {
-    if (plan_.rules.race == Race::none || !subject.is_ready())
+    if (plan_.rules.race == Race::none || !measurement.is_ready())
         return false;
-    Cell& cell = subject.cell;
+    Cell& cell = measurement.cell;
     Contest::Place place = Contest::Place::in_the_race;
     do {
         const int order = order_++;
-        std::vector<StageTime> stages = run_once(subject);
+        std::vector<StageTime> stages = run_once(measurement);
         if (cell.status != Cell::Status::measured)
             return false;
         cell.samples.push_back(
             {.order = order, .stages = std::move(stages), .wall_ns = session_.queue().wall_ns()});
-        place = contest.look(cell, subject.settled, slower_now());
+        place = contest.compare(cell, measurement.stages_before, slower_now());
     } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     if (place != Contest::Place::far_behind) {
         const double own = raced_ns(plan_.rules.race, cell.samples.back());
         if (own > 0 && (ahead_ == nullptr || own < ahead_ns_)) {
-            ahead_ = &subject;
+            ahead_ = &measurement;
             ahead_ns_ = own;
         }
         return false;
     }
-    subject.once = {};
+    measurement.once = {};
     cell.sampling = facts_of(Stopped::beaten, plan_.rules.caches.front());
     return true;
 }
 
 /// Runs a cell once and returns its stages. If that fails, refuses the cell and returns nothing.
-std::vector<StageTime> Engine::run_once(Subject& subject)
+std::vector<StageTime> Engine::run_once(Measurement& measurement)
 {
-    const watchdog::Hand hand(subject.number);
+    const watchdog::CellScope scope(measurement.number);
     std::vector<StageTime> stages;
     std::string failure = reason_of_failure([&] {
         session_.set_caches(plan_.rules.caches.front());
         try {
-            stages = session_.timed(subject.once);
+            stages = session_.timed(measurement.once);
         } catch (const BadClock&) {  // once may be chance
-            stages = session_.timed(subject.once);
+            stages = session_.timed(measurement.once);
         }
     });
     session_.set_caches(Caches::hot);
     if (!failure.empty())
-        refuse(subject, Cell::Status::failed, std::move(failure));
+        refuse(measurement, Cell::Status::failed, std::move(failure));
     return stages;
 }
 
@@ -149,17 +149,17 @@ SamplingFacts Engine::facts_of(Stopped stopped, Caches caches) const
 }
 
 /// Runs a cell once between its copies, which are stages on the host.
-std::vector<StageTime> Engine::from_host(Subject& subject)
+std::vector<StageTime> Engine::from_host(Measurement& measurement)
 {
     Queue& queue = session_.queue();
     std::vector<StageTime> stages;
     wall_ns_ = host_ns([&] {
-        if (subject.upload)
-            queue.on_host("upload", subject.upload);
-        stages = subject.once();
-        if (!subject.read_back)
+        if (measurement.upload)
+            queue.on_host("upload", measurement.upload);
+        stages = measurement.once();
+        if (!measurement.read_back)
             return;
-        queue.on_host("read_back", subject.read_back);
+        queue.on_host("read_back", measurement.read_back);
         std::ranges::move(queue.finish(), std::back_inserter(stages));
     });
     return stages;
@@ -178,18 +178,18 @@ void Engine::tell(int rounds, double before_s, double sampling_s) const
           (before_s + sampling_s) / (before_s + all_s));
 }
 
-std::vector<Cell> Engine::sample(std::span<Subject> subjects)
+std::vector<Cell> Engine::sample(std::span<Measurement> measurements)
 {
     const std::vector<Caches>& kinds = plan_.rules.caches;
-    std::vector<std::vector<Cell>> sampled(kinds.size(), std::vector<Cell>(subjects.size()));
+    std::vector<std::vector<Cell>> sampled(kinds.size(), std::vector<Cell>(measurements.size()));
     const auto& other_sampler = session_.other_sampler.sample;
     if (other_sampler)
-        other_sampler(subjects);
+        other_sampler(measurements);
     for (std::size_t kind = 0; kind < kinds.size() && !other_sampler; ++kind)
-        sample(subjects, kinds[kind], sampled[kind]);
+        sample(measurements, kinds[kind], sampled[kind]);
     std::vector<Cell> cells;
-    for (std::size_t i = 0; i < subjects.size(); ++i) {
-        Subject& one = subjects[i];
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        Measurement& one = measurements[i];
         const bool was_sampled = one.is_ready() && !other_sampler;
         if (was_sampled && one.judge_again && one.cell.sampling.stopped != Stopped::beaten)
             if (std::string failure = reason_of_failure(one.judge_again); !failure.empty())
@@ -210,18 +210,18 @@ std::vector<Cell> Engine::sample(std::span<Subject> subjects)
 }
 
 /// Samples with caches of one kind, and writes samples and how they were taken to `cells`.
-void Engine::sample(std::span<Subject> subjects, Caches caches, std::span<Cell> cells)
+void Engine::sample(std::span<Measurement> measurements, Caches caches, std::span<Cell> cells)
 {
     const double before_s = seconds_since(start_);
     if (note_)
         plan_.after_round = [this, before_s](int rounds) {
             tell(rounds, before_s, seconds_since(start_) - before_s);
         };
-    std::vector<Timed> timed;
+    std::vector<CellToSample> timed;
     std::vector<std::size_t> ready;
     const bool on_host = caches == Caches::host;
-    for (std::size_t i = 0; i < subjects.size(); ++i) {
-        Subject& one = subjects[i];
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+        Measurement& one = measurements[i];
         if (!one.is_ready() || (on_host && !one.no_copies.empty()))
             continue;
         ready.push_back(i);
@@ -229,19 +229,19 @@ void Engine::sample(std::span<Subject> subjects, Caches caches, std::span<Cell> 
         timed.push_back(
             {cell.collider.name.empty() ? cell.builder.name : cell.collider.name,
              [this, &one, on_host] {
-                 const watchdog::Hand hand(one.number);
+                 const watchdog::CellScope scope(one.number);
                  return session_.timed([&] { return on_host ? from_host(one) : one.once(); });
              },
              cell.samples, bytes_held(cell),
              [this, on_host] { return on_host ? wall_ns_ : session_.queue().wall_ns(); }});
     }
-    std::vector<Taken> taken;
+    std::vector<CellSamples> taken;
     {
         const SampleLock alone;
         taken = session_samples(session_, timed, plan_, caches, order_);
     }
     for (std::size_t k = 0; k < ready.size(); ++k) {
-        Subject& one = subjects[ready[k]];
+        Measurement& one = measurements[ready[k]];
         Cell& cell = cells[ready[k]];
         cell.samples = std::move(taken[k].samples);
         cell.sampling = one.cell.sampling = facts_of(taken[k].stopped, caches);

@@ -19,7 +19,7 @@
 namespace bvhbench {
 
 /// A cell and the functions that measure it. They may refer to objects of the caller, which must outlive the measurement.
-struct Subject {
+struct Measurement {
     Cell cell;
     std::string number = {};  ///< path of the cell within the run, for the watchdog; may be empty
     /// Runs one sample and returns its stages; empty if there is nothing to time.
@@ -28,7 +28,7 @@ struct Subject {
     /// For samples that begin on the host: copy the vertices to the device, and the answer to the host. Empty where nothing is copied.
     std::function<void()> upload = {}, read_back = {};
     std::string no_copies = {};  ///< why its samples cannot begin on the host; empty if they can
-    std::vector<StageTime> settled = {};  ///< stages of the last run before the samples
+    std::vector<StageTime> stages_before = {};  ///< stages of the last run before the samples
 
     bool is_ready() const
     {
@@ -53,25 +53,25 @@ public:
 
     /// Runs `work`, which compiles, runs and judges the cell for the first time, and fills in `cell` and `once`. Marks the cell
     /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
-    void settle(Subject& subject, const std::function<void()>& work);
+    void prepare(Measurement& measurement, const std::function<void()>& work);
 
     /// In a race, takes the first sample of a cell that is ready, and runs the best so far once more beside it, because the speed
     /// of a machine changes. Returns true (drop the cell) if this sample and the run before it are both far behind the best
     /// (`far_behind`, session/race.h). If only the sample is, takes one more.
-    bool look(Subject& subject, Contest& contest);
+    bool sample_first(Measurement& measurement, Contest& contest);
 
     /// Samples all cells that are ready, interleaved, with caches of each kind that the plan names, and judges each again, except
     /// those that lost a race. Returns a cell for each of them and kind of caches; one that fails once has failed with all.
-    std::vector<Cell> sample(std::span<Subject> subjects);
+    std::vector<Cell> sample(std::span<Measurement> measurements);
 
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
-    void refuse(Subject& subject, Cell::Status status, std::string reason);
+    void refuse(Measurement& measurement, Cell::Status status, std::string reason);
 
 private:
-    void sample(std::span<Subject> subjects, Caches caches, std::span<Cell> cells);
-    std::vector<StageTime> from_host(Subject& subject);
+    void sample(std::span<Measurement> measurements, Caches caches, std::span<Cell> cells);
+    std::vector<StageTime> from_host(Measurement& measurement);
     SamplingFacts facts_of(Stopped stopped, Caches caches) const;
-    std::vector<StageTime> run_once(Subject& subject);
+    std::vector<StageTime> run_once(Measurement& measurement);
     double slower_now();
     void tell(int rounds, double before_s, double sampling_s) const;
 
@@ -80,9 +80,9 @@ private:
     int& order_;
     Note note_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    Subject* ahead_ = nullptr;  ///< the best of those that were looked at
-    double ahead_ns_ = 0;       ///< its least time
-    std::int64_t wall_ns_ = 0;  ///< of the last sample that began on the host
+    Measurement* ahead_ = nullptr;  ///< the best of those that were looked at
+    double ahead_ns_ = 0;           ///< its least time
+    std::int64_t wall_ns_ = 0;      ///< of the last sample that began on the host
 };
 
 }  // namespace bvhbench

@@ -19,31 +19,31 @@ namespace bvhbench {
 namespace {
 
 /// The pairs or contacts that a pipeline found. They are kept only if their hash differs from that of the oracle's list.
-class Listed {
+class FoundList {
 public:
-    Listed(std::vector<Pair> found, const Right& right) : right_(right)
+    FoundList(std::vector<Pair> found, const Expected& expected) : expected_(expected)
     {
         const PairFacts facts = facts_of(found);
         // Facts from an earlier run may be wrong, so a difference counts only if the list has it too.
-        if (facts != right.facts().set && facts != right.list().facts.set) {
+        if (facts != expected.facts().set && facts != expected.list().facts.set) {
             doubled_ = doubled_pairs(found);
             own_.emplace(std::move(found));
         }
     }
 
     bool is_right() const { return !own_; }
-    const PairList& list() const { return own_ ? *own_ : right_.list().list; }
+    const PairList& list() const { return own_ ? *own_ : expected_.list().list; }
 
     /// Adds differences from the oracle's list to the check.
-    void hold(const std::string& what, Check& check, const FrameOfPipelines& frame) const
+    void add_differences(const std::string& what, Check& check, const FrameOfPipelines& frame) const
     {
         if (!own_)
             return;
-        const RightFacts& right = right_.list().facts;
+        const AnswerFacts& expected = expected_.list().facts;
         check.find_wrong(
-            "the oracle has " + std::to_string(right.set.count) + ' ' + what + " of the hash " +
-            hex(right.file_hash) +
-            examples(*own_, right_.list().list, doubled_, frame.input, frame.file_faces) +
+            "the oracle has " + std::to_string(expected.set.count) + ' ' + what + " of the hash " +
+            hex(expected.file_hash) +
+            examples(*own_, expected_.list().list, doubled_, frame.input, frame.file_faces) +
             "; `collide --" + what + " FILE` writes all that were found");
     }
 
@@ -51,16 +51,16 @@ public:
     PairList in_file(const FrameOfPipelines& frame, std::optional<std::uint64_t>& hash) const
     {
         if (!own_ && !frame.wants_lists) {
-            hash = right_.facts().file_hash;
+            hash = expected_.facts().file_hash;
             return {};
         }
-        PairList numbered = own_ ? renumbered(*own_, frame.file_faces) : right_.list().in_file();
-        hash = own_ ? numbered.hash() : right_.list().facts.file_hash;
+        PairList numbered = own_ ? renumbered(*own_, frame.file_faces) : expected_.list().in_file();
+        hash = own_ ? numbered.hash() : expected_.list().facts.file_hash;
         return numbered;
     }
 
 private:
-    const Right& right_;
+    const Expected& expected_;
     std::optional<PairList> own_;  ///< if it is not the oracle's
     std::vector<Pair> doubled_;    ///< some that were found more than once
 };
@@ -76,7 +76,7 @@ Differences count_errors(const PairList& found, const PairList& expected, const 
 }
 
 /// Counts the errors of a narrow phase that is not exact. One for swept boxes may find what does not touch, and misses nothing.
-void hold_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
+void check_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
 {
     const Differences wrong = count_errors(found, expected, "", cell);
     if (!may_miss && (wrong.missed > 0 || found.surplus() > 0))
@@ -89,7 +89,7 @@ void hold_inexact(const PairList& found, const PairList& expected, bool may_miss
 
 /// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes
 /// `counted` if the pairs are the answer, and stays if they are candidates for a narrow phase.
-void hold_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
+void check_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
 {
     const Differences wrong = count_errors(found, expected, "pairs_", cell);
     if (found.surplus() > 0 || wrong.missed > 0) {
@@ -102,17 +102,17 @@ void hold_candidates(const PairList& found, const PairList& expected, bool is_an
 }
 
 /// Judges the pairs that a pipeline found by the oracle's list.
-void judge_by_list(const Pipeline& pipeline, Cell& cell, const Right& right,
+void judge_by_list(const Pipeline& pipeline, Cell& cell, const Expected& expected,
                    const FrameOfPipelines& frame, Found& found)
 {
-    const Listed pairs(pipeline.pairs(), right);
+    const FoundList pairs(pipeline.pairs(), expected);
     cell.check.against = pairs_oracle;
     if (find_box_format(cell.builder.boxes).has_cells())
-        hold_candidates(pairs.list(), right.list().list, !pipeline.has_contacts(), cell);
+        check_candidates(pairs.list(), expected.list().list, !pipeline.has_contacts(), cell);
     else
-        pairs.hold("pairs", cell.check, frame);
+        pairs.add_differences("pairs", cell.check, frame);
     if (!cell.swept.pairs.empty())
-        count_errors(pairs.list(), right.list().list, "", cell);
+        count_errors(pairs.list(), expected.list().list, "", cell);
     found.pairs = pairs.in_file(frame, cell.check.pairs_hash);
 }
 
@@ -135,13 +135,13 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
         constexpr double many = 1 << 24;  // fewer are copied to the host and hashed in 0.1 s
         const bool by_device = needs_no_list(pipeline, cell, frame);
         try {
-            const Right& right = oracle.pairs(choice);
+            const Expected& expected = oracle.pairs(choice);
             if (by_device && cell.counters.at("pairs_count") >= many &&
-                facts_on_device(session, pipeline) == right.facts().set) {
+                facts_on_device(session, pipeline) == expected.facts().set) {
                 check.against = pairs_oracle;
-                check.pairs_hash = right.facts().file_hash;
+                check.pairs_hash = expected.facts().file_hash;
             } else {  // a difference counts only if the list has it too
-                judge_by_list(pipeline, cell, right, frame, found);
+                judge_by_list(pipeline, cell, expected, frame, found);
             }
         } catch (const Unavailable&) {  // the host cannot list them
             if (!by_device)
@@ -152,16 +152,16 @@ void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle
     if (pipeline.has_contacts()) {
         if (has_exact_reference) {
             check.against += check.against.empty() ? "CGAL" : ", CGAL";
-            const Right& right = oracle.contacts(choice);
-            const Listed contacts(pipeline.contacts(), right);
+            const Expected& expected = oracle.contacts(choice);
+            const FoundList contacts(pipeline.contacts(), expected);
             const bool by_collider = pipeline.collider().finds_contacts();
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
-                contacts.hold("contacts", check, frame);
+                contacts.add_differences("contacts", check, frame);
             else
-                hold_inexact(contacts.list(), right.list().list, !frame.input.is_swept(), cell);
+                check_inexact(contacts.list(), expected.list().list, !frame.input.is_swept(), cell);
             found.contacts = contacts.in_file(frame, check.contacts_hash);
             if (!frame.input.is_swept() && contacts.is_right())
-                cell.counters["touching_count"] = static_cast<double>(right.facts().touching);
+                cell.counters["touching_count"] = static_cast<double>(expected.facts().touching);
         } else {
             if (check.verdict == Check::Verdict::agrees) {
                 check.verdict = Check::Verdict::not_checked;
@@ -191,8 +191,8 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
 }
 
 /// Creates the pipeline if it does not exist and runs the frame once, so that the frame can be timed. Returns the stages.
-std::vector<StageTime> settle(Session& session, Running& one, const FrameOfPipelines& frame,
-                              Cell& cell)
+std::vector<StageTime> prepare(Session& session, PipelineState& one, const FrameOfPipelines& frame,
+                               Cell& cell)
 {
     const watchdog::Watch watch;
     if (one.pipeline == nullptr)
@@ -202,70 +202,70 @@ std::vector<StageTime> settle(Session& session, Running& one, const FrameOfPipel
         cell.builder = {.name = "none"};
     one.pipeline->begin_frame(frame.motions);
     std::vector<StageTime> stages;
-    cell.first.run_ns = host_ns([&] { stages = one.pipeline->settle(frame.input); });
+    cell.first.run_ns = host_ns([&] { stages = one.pipeline->prepare(frame.input); });
     return stages;
 }
 
 }  // namespace
 
-std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
+std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<PipelineState> all,
                             const FrameOfPipelines& frame, int& order, Found& found)
 {
     const Input& input = frame.input;
     FrameOracle oracle(input, frame.file_faces, frame.note);
     oracle.begin(all.front().choice.collider);  // runs while the first pipeline is prepared
     Engine engine(session, {task.samples, task.warm_up, task.sampling}, order, frame.note);
-    std::vector<Subject> subjects(all.size());
+    std::vector<Measurement> measurements(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
-        Running& one = all[k];
-        Subject& subject = subjects[k];
-        subject = {.cell = planned_cell(task, one.choice),
-                   .number = frame.number + '/' + std::to_string(k)};
-        Cell& cell = subject.cell;
+        PipelineState& one = all[k];
+        Measurement& measurement = measurements[k];
+        measurement = {.cell = planned_cell(task, one.choice),
+                       .number = frame.number + '/' + std::to_string(k)};
+        Cell& cell = measurement.cell;
         cell.scene = frame.scene;
         cell.swept = frame.swept;
         if (one.status == Cell::Status::measured && one.pipeline == nullptr)
             if (one.reason = frame.contest.why_not(cell); !one.reason.empty())
                 one.status = Cell::Status::skipped;
         if (one.status != Cell::Status::measured) {
-            engine.refuse(subject, one.status, one.reason);
+            engine.refuse(measurement, one.status, one.reason);
             continue;
         }
         if (frame.note)
             frame.note(one.choice.collider.name + " over " + one.choice.builder.name + ", cell " +
                            std::to_string(k + 1) + " of " + std::to_string(all.size()),
                        0);
-        engine.settle(subject, [&] {
+        engine.prepare(measurement, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
-            subject.settled = settle(session, one, frame, cell);
+            measurement.stages_before = prepare(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
             cell.counters.merge(one.pipeline->transfers(input));
             judge(session, *one.pipeline, cell, oracle, frame, found);
         });
-        subject.once = [&] {
+        measurement.once = [&] {
             const watchdog::Watch watch;
             return one.pipeline->once(input);
         };
         if (find_collider(one.choice.collider.name).outside != nullptr)
-            subject.no_copies = no_copies_of_outside;
+            measurement.no_copies = no_copies_of_outside;
         if (one.pipeline != nullptr && one.pipeline->is_on_device()) {
-            subject.upload = [&] { one.pipeline->upload(input); };
-            subject.read_back = [&] { one.pipeline->read_back(); };
+            measurement.upload = [&] { one.pipeline->upload(input); };
+            measurement.read_back = [&] { one.pipeline->read_back(); };
         }
         // Another pipeline may have used the same builder's tree since the last sample, so the frame runs once more.
-        subject.judge_again = [&] {
+        measurement.judge_again = [&] {
             one.pipeline->once(input);
             judge(session, *one.pipeline, cell, oracle, frame, found);
             frame.contest.count_areas(*one.pipeline, input, cell);
         };
-        if (engine.look(subject, frame.contest))
+        if (engine.sample_first(measurement, frame.contest))
             one.pipeline.reset();  // it is far behind; frees its memory
     }
     oracle.wait();  // needed even if no pipeline has asked the oracle
-    std::vector<Cell> cells = engine.sample(subjects);
+    std::vector<Cell> cells = engine.sample(measurements);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        all[k].status = subjects[k].cell.status;
-        all[k].reason = subjects[k].cell.reason;
+        all[k].status = measurements[k].cell.status;
+        all[k].reason = measurements[k].cell.reason;
     }
     frame.contest.end_frame(cells);
     for (std::size_t k = 0; k < all.size(); ++k)

@@ -44,7 +44,7 @@ public:
     const PairList& in_file() const { return renumbered_ ? *renumbered_ : list; }
 
     PairList list;
-    RightFacts facts;
+    AnswerFacts facts;
 
 private:
     std::optional<PairList> renumbered_;  ///< if the numbers differ
@@ -57,14 +57,14 @@ struct OracleProgress {
 };
 
 /// Pairs or contacts of a frame: what identifies them, and the list, which is computed only where it is needed.
-class Right {
+class Expected {
 public:
-    Right() = default;
+    Expected() = default;
 
     /// Starts looking for a kept answer to `key`, and computing the list if there is none. `compute` is given what counts how
     /// much is done, and returns an Answer. `what` is "pairs" or "contacts".
     template <class Compute>
-    Right(std::uint64_t key, const std::string& what, Note note, Compute compute)
+    Expected(std::uint64_t key, const std::string& what, Note note, Compute compute)
         : oracle_("the oracle of " + what)
         , name_("oracle " + hex(key))
         , list_(std::async(std::launch::deferred,
@@ -78,7 +78,7 @@ public:
                            }))
         , facts_(std::async(std::launch::async,
                             [key, list = list_] {
-                                const std::optional<RightFacts> kept = kept_answer(key);
+                                const std::optional<AnswerFacts> kept = kept_answer(key);
                                 return kept ? *kept : list.get().facts;
                             }))
         , note_(std::move(note))
@@ -91,7 +91,7 @@ public:
     void wait() const { wait_for(facts_); }
 
     /// Facts of the list, kept or computed. Blocks. Throws Unavailable if the host lacks the memory to list the pairs.
-    const RightFacts& facts() const
+    const AnswerFacts& facts() const
     {
         wait();
         return facts_.get();
@@ -111,7 +111,7 @@ private:
     template <class Later>
     void wait_for(const Later& later) const
     {
-        const watchdog::Hand hand(name_);
+        const watchdog::CellScope scope(name_);
         const watchdog::Watch watch;
         for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
              ++seconds) {
@@ -127,7 +127,7 @@ private:
     std::string oracle_, name_;  ///< for people, and for the watchdog
     std::shared_ptr<OracleProgress> progress_ = std::make_shared<OracleProgress>();
     std::shared_future<Answer> list_;  ///< deferred: the first who needs it computes it
-    std::shared_future<RightFacts> facts_;
+    std::shared_future<AnswerFacts> facts_;
     Note note_;
 };
 
@@ -156,12 +156,12 @@ public:
             one.pairs.wait();
     }
 
-    const Right& pairs(const ColliderChoice& choice)
+    const Expected& pairs(const ColliderChoice& choice)
     {
         const std::pair asked(choice.among, choice.keep_adjacent);
-        Right& pairs = entries_[asked].pairs;
+        Expected& pairs = entries_[asked].pairs;
         if (!pairs.is_asked())
-            pairs = Right(key_of(asked, 'p'), "pairs", note_, [this, asked](OracleProgress&) {
+            pairs = Expected(key_of(asked, 'p'), "pairs", note_, [this, asked](OracleProgress&) {
                 require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
                 return Answer(touching_pairs(leaf_boxes(input_), input_.faces, asked.second,
                                              input_.objects, asked.first),
@@ -170,14 +170,14 @@ public:
         return pairs;
     }
 
-    const Right& contacts(const ColliderChoice& choice)
+    const Expected& contacts(const ColliderChoice& choice)
     {
         const std::shared_future<Answer> pairs = this->pairs(choice).later();
         const std::pair asked(choice.among, choice.keep_adjacent);
-        Right& contacts = entries_[asked].contacts;
+        Expected& contacts = entries_[asked].contacts;
         if (!contacts.is_asked())
-            contacts =
-                Right(key_of(asked, 'c'), "contacts", note_, [=, this](OracleProgress& progress) {
+            contacts = Expected(
+                key_of(asked, 'c'), "contacts", note_, [=, this](OracleProgress& progress) {
                     stop_thread_at("contacts");
                     const std::span<const Pair> candidates = pairs.get().list.pairs();
                     progress.total = candidates.size();
@@ -203,7 +203,7 @@ private:
     using Asked =
         std::pair<Among, bool>;  ///< the kind of pairs, and whether adjacent ones are kept
     struct Entry {
-        Right pairs, contacts;
+        Expected pairs, contacts;
     };
 
     std::uint64_t key_of(const Asked& asked, char list) const

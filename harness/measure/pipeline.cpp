@@ -193,7 +193,7 @@ bool Pipeline::complete()
     return !queries() || (collider_->complete(queue) && (!narrow_ || narrow_->complete(queue)));
 }
 
-std::vector<StageTime> Pipeline::settle(const Input& input)
+std::vector<StageTime> Pipeline::prepare(const Input& input)
 {
     choose_entering(input);
     std::vector<StageTime> stages;

@@ -33,10 +33,10 @@ public:
 
     /// Runs the whole frame until no buffer overflows, and reserves memory for the triangles that enter it. Returns the stages of
     /// the last run, which may include compiling. Blocks until done.
-    std::vector<StageTime> settle(const Input& input);
+    std::vector<StageTime> prepare(const Input& input);
 
     /// Runs the whole frame once and returns its stages. Blocks until done. Throws Unavailable if a buffer overflows, which
-    /// cannot happen after settle() over the same points.
+    /// cannot happen after prepare() over the same points.
     std::vector<StageTime> once(const Input& input);
 
     /// Results of the last frame. All of these functions block until it is done.

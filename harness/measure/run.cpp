@@ -80,8 +80,8 @@ struct Built {
 
 /// Builds or refits the cell's tree for the first time, checks it and writes its quality and size to the cell. `oracle` is that
 /// of the frame that the tree is built over.
-void settle(Session& session, const Experiment& experiment, const Frames& frames, Oracle& oracle,
-            const NodeCosts& costs, Cell& cell, Built& built)
+void prepare(Session& session, const Experiment& experiment, const Frames& frames, Oracle& oracle,
+             const NodeCosts& costs, Cell& cell, Built& built)
 {
     const bool refits = cell.operation == Operation::refit;
     const Input& first = refits ? frames.before() : frames.now();
@@ -104,13 +104,13 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
     });
     if (refits)
         built.first.clear();  // they are no stages of a refit
-    HostTree tree = built.tree->spelled_out();
+    HostTree tree = built.tree->to_host_tree();
     cell.check = check_tree(tree, first, cell.builder, oracle);
     if (refits) {
         session.refit_once(builder, first, &built.tree);  // the same points: nothing may change
         cell.check = check_again(*built.tree, first, std::move(cell.check));
         session.refit_once(builder, frames.now(), &built.tree);
-        const HostTree before = std::exchange(tree, built.tree->spelled_out());
+        const HostTree before = std::exchange(tree, built.tree->to_host_tree());
         cell.check = check_refit(tree, before, frames.now(), std::move(cell.check));
     } else if (experiment.start == Start::from_sorted_leaves) {
         session.build_once(builder, first, experiment.start, &built.tree);
@@ -193,7 +193,7 @@ std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& 
         if (!share.has(number++) || cells == 0)
             return;
         std::size_t triangles = 0;
-        reason_of_failure([&] { triangles = triangles_said(name); });
+        reason_of_failure([&] { triangles = triangles_in_name(name); });
         planned.weight = static_cast<double>(cells * (triangles + triangles_of_a_start));
         if (!settings.empty()) {
             Hash hash;
@@ -328,50 +328,50 @@ void Run::scene(const Experiment& experiment, const std::string& name,
                   note);
     const std::size_t count = builders.size() * experiment.operations.size();
     Contest contest(experiment.sampling.race);
-    std::vector<Subject> subjects(count);
+    std::vector<Measurement> measurements(count);
     std::vector<Built> built(count);
     for (std::size_t k = 0; k < count; ++k) {
-        Subject& subject = subjects[k];
-        subject = {.cell = empty, .number = number + std::to_string(k)};
-        subject.cell.builder = builders[k / experiment.operations.size()];
-        subject.cell.operation = experiment.operations[k % experiment.operations.size()];
-        const BuilderEntry& entry = find_builder(subject.cell.builder.name);
+        Measurement& measurement = measurements[k];
+        measurement = {.cell = empty, .number = number + std::to_string(k)};
+        measurement.cell.builder = builders[k / experiment.operations.size()];
+        measurement.cell.operation = experiment.operations[k % experiment.operations.size()];
+        const BuilderEntry& entry = find_builder(measurement.cell.builder.name);
         std::string why(entry.absent);
         const auto status = entry.is_broken ? Cell::Status::failed : Cell::Status::skipped;
-        if (why.empty() && subject.cell.operation == Operation::build)
-            why = contest.why_not(subject.cell);
+        if (why.empty() && measurement.cell.operation == Operation::build)
+            why = contest.why_not(measurement.cell);
         if (!no_scene.empty() || !why.empty()) {
-            engine.refuse(subject, no_scene.empty() ? status : Cell::Status::skipped,
+            engine.refuse(measurement, no_scene.empty() ? status : Cell::Status::skipped,
                           no_scene.empty() ? why : no_scene);
             continue;
         }
-        note(subject.cell.builder.name + ", cell " + std::to_string(k + 1) + " of " +
+        note(measurement.cell.builder.name + ", cell " + std::to_string(k + 1) + " of " +
                  std::to_string(count),
              0);
-        engine.settle(subject, [&] {
-            Oracle& own = subject.cell.operation == Operation::refit ? oracle_before : oracle;
-            settle(session_, experiment, frames, own, costs_, subject.cell, built[k]);
+        engine.prepare(measurement, [&] {
+            Oracle& own = measurement.cell.operation == Operation::refit ? oracle_before : oracle;
+            prepare(session_, experiment, frames, own, costs_, measurement.cell, built[k]);
         });
-        subject.once = [&, k] {
-            return subject.cell.operation == Operation::refit
+        measurement.once = [&, k] {
+            return measurement.cell.operation == Operation::refit
                        ? session_.refit_once(*built[k].builder, frames.now(), &built[k].tree)
                        : session_.build_once(*built[k].builder, frames.now(), experiment.start,
                                              &built[k].tree);
         };
-        subject.upload = [&] { frames.upload_points(session_); };
+        measurement.upload = [&] { frames.upload_points(session_); };
         if (entry.outside != nullptr)
-            subject.no_copies = no_copies_of_outside;
-        subject.judge_again = [&, k] {
-            subject.cell.check =
-                check_again(*built[k].tree, frames.now(), std::move(subject.cell.check));
+            measurement.no_copies = no_copies_of_outside;
+        measurement.judge_again = [&, k] {
+            measurement.cell.check =
+                check_again(*built[k].tree, frames.now(), std::move(measurement.cell.check));
         };
         if (experiment.start == Start::from_triangles)
-            subject.settled = built[k].first;
-        engine.look(subject, contest);
+            measurement.stages_before = built[k].first;
+        engine.sample_first(measurement, contest);
     }
     oracle.wait();  // builders that failed may have begun references that are still running
     oracle_before.wait();
-    for (const Cell& cell : engine.sample(subjects))
+    for (const Cell& cell : engine.sample(measurements))
         results_.add(cell);
 }
 

@@ -19,7 +19,7 @@ struct Question {
     GroundTruth::Pairs GroundTruth::*touching;  ///< those of them that collide
     std::optional<std::uint64_t> GroundTruth::*counted;
     Input input = {};
-    std::vector<Running> running = {};  ///< the pipelines that take part in it
+    std::vector<PipelineState> pipelines = {};  ///< the pipelines that take part in it
     Contest contest = Contest();
 };
 
@@ -58,7 +58,7 @@ void judge_step(const Question& question, const GroundTruth& truth, const Found&
 }
 
 /// Moves both queries on to the next step. The end points of the last step become the start points without another upload.
-void go_on(Question (&questions)[2], const Scene& scene, std::size_t frame, const Queue& queue)
+void advance(Question (&questions)[2], const Scene& scene, std::size_t frame, const Queue& queue)
 {
     Input& first = questions[0].input;
     std::swap(first.device_points, first.device_end_points);
@@ -95,10 +95,10 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
             const Among among = std::exchange(pipeline.collider.among, question.among);
             pipeline.collider.keep_adjacent = false;
             if (among == Among::all || among == question.among)
-                question.running.push_back({std::move(pipeline)});
+                question.pipelines.push_back({std::move(pipeline)});
         }
     }
-    const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
+    const std::size_t cells_a_step = questions[0].pipelines.size() + questions[1].pipelines.size();
     if (passes && passes((steps.end - steps.first) * cells_a_step * task.sampling.caches.size()))
         return;
     const std::optional<GroundTruth> truth = ground_truth_of(scene, questions[1].parts);
@@ -111,9 +111,9 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
 
     for (std::size_t step = steps.first; step < steps.end; ++step) {
         if (step > steps.first)
-            go_on(questions, scene, step, session.queue());
+            advance(questions, scene, step, session.queue());
         for (Question& question : questions) {
-            if (question.running.empty())
+            if (question.pipelines.empty())
                 continue;
             FrameOfPipelines now{
                 .input = question.input,
@@ -133,7 +133,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                 };
             }
             Found found{.scene = &scene};
-            add(run_frame(session, task, question.running, now, order, found), found);
+            add(run_frame(session, task, question.pipelines, now, order, found), found);
         }
     }
 }

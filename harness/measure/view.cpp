@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
 #include "harness/measure/collide.h"
@@ -82,7 +82,7 @@ std::string view_text(Session& session, const std::string& scene_name, std::size
     const Json run = run_facts(session.device(), std::move(command));
     const std::vector<Point>& points = scene.frames[number];
     const Input input = upload(session.device(), session.queue(), points, scene.faces);
-    std::vector<Running> all;
+    std::vector<PipelineState> all;
     all.push_back({pipeline});
     Contest contest;
     const FrameOfPipelines frame{.input = input,
@@ -99,15 +99,15 @@ std::string view_text(Session& session, const std::string& scene_name, std::size
     if (tree == nullptr)
         throw BadUsage("a report shows the boxes of a builder's tree, and the collider " +
                        pipeline.collider.name + " has none");
-    const HostTree spelled = tree->spelled_out();
+    const HostTree spelled = tree->to_host_tree();
     cell.samples.clear();
     cell.check.tree_hash = tree_hash(spelled);
     cell.check.against += ", contract";
-    const std::string breach = broken_promise(spelled, points, scene.faces);
-    if (!breach.empty())
-        cell.check.find_wrong(breach);
+    const std::string violation = invariant_violation(spelled, points, scene.faces);
+    if (!violation.empty())
+        cell.check.find_wrong(violation);
 
-    return text_of(run, cell, scene, number, breach.empty() ? &spelled : nullptr, found);
+    return text_of(run, cell, scene, number, violation.empty() ? &spelled : nullptr, found);
 }
 
 }  // namespace bvhbench

@@ -83,7 +83,7 @@ OutputRules result_rules(bool force, std::vector<std::string> inputs, bool resum
 }
 
 ResultFile::ResultFile(Output output, bool force, const Resuming& resuming,
-                       const std::string& goes_on)
+                       const std::string& resumed_run)
     : output_(std::move(output)), resuming_(resuming)
 {
     if (!output_.is_file())
@@ -92,7 +92,7 @@ ResultFile::ResultFile(Output output, bool force, const Resuming& resuming,
     const bool has_journal = std::filesystem::exists(path);
     if (resuming_.is_asked && output_.was_there())
         earlier_ = measured_in(output_.path());
-    if (has_journal && (resuming_.is_asked || !goes_on.empty()))
+    if (has_journal && (resuming_.is_asked || !resumed_run.empty()))
         add_journal(path, earlier_);
     else if (has_journal && !force)
         throw BadUsage(path.string() +
@@ -101,14 +101,14 @@ ResultFile::ResultFile(Output output, bool force, const Resuming& resuming,
     else if (has_journal)
         std::filesystem::remove(path);
     run_ = earlier_.last_run;
-    has_begun_ = !goes_on.empty() && run_.is_object() && run_.value("id", "") == goes_on;
+    has_begun_ = !resumed_run.empty() && run_.is_object() && run_.value("id", "") == resumed_run;
     is_written_ = !has_journal;
     has_measured_ = !earlier_.parts.empty();
     at_signal_.emplace([this] { keep(); }, "finished cells are kept");
 }
 
-ResultFile::ResultFile(Output output, bool force, Json run, const std::string& goes_on)
-    : ResultFile(std::move(output), force, Resuming{}, goes_on)
+ResultFile::ResultFile(Output output, bool force, Json run, const std::string& resumed_run)
+    : ResultFile(std::move(output), force, Resuming{}, resumed_run)
 {
     begin(std::move(run));
     begin_part({});
@@ -221,7 +221,7 @@ void ResultFile::end_part(double seconds)
 }
 
 /// Returns a cell of which nothing more will change.
-ResultFile::Kept ResultFile::kept(Json cell, const std::string& run)
+ResultFile::CellText ResultFile::kept(Json cell, const std::string& run)
 {
     cell.erase("run");
     return {.text = cell.dump(),
@@ -317,9 +317,9 @@ void ResultFile::finish(const EndOfRun& end)
 }
 
 /// Returns all cells: those of parts that were not begun come last.
-std::vector<ResultFile::Kept> ResultFile::all_cells() const
+std::vector<ResultFile::CellText> ResultFile::all_cells() const
 {
-    std::vector<Kept> all = cells_;
+    std::vector<CellText> all = cells_;
     for (std::size_t k = taken_; k < there_.size(); ++k)
         all.push_back(kept(there_[k], there_[k].at("run")));
     for (const std::string& key : earlier_.order)
@@ -331,15 +331,15 @@ std::vector<ResultFile::Kept> ResultFile::all_cells() const
 
 std::string ResultFile::text() const
 {
-    const std::vector<Kept> cells = all_cells();
+    const std::vector<CellText> cells = all_cells();
     std::vector<std::string> lines, sources;
     const std::string own = run_.value("id", "");
     const bool is_merged =
-        std::ranges::any_of(cells, [&](const Kept& cell) { return cell.run != own; });
-    for (const Kept& cell : cells)
+        std::ranges::any_of(cells, [&](const CellText& cell) { return cell.run != own; });
+    for (const CellText& cell : cells)
         lines.push_back(is_merged ? with_key(cell.text, "run", cell.run) : cell.text);
     for (const Json& run : earlier_.runs)
-        if (is_merged && std::ranges::count(cells, run.value("id", ""), &Kept::run) > 0)
+        if (is_merged && std::ranges::count(cells, run.value("id", ""), &CellText::run) > 0)
             sources.push_back(source_of(run.value("id", "") == own ? run_ : run).dump());
     // One cell per line, so that files can be compared by diff.
     std::string text = "{\"format\": \"" + result_format + "\",\n\"run\": " + one_line(run_);
@@ -362,17 +362,17 @@ std::string ResultFile::outcome_of_part() const
     const std::size_t count = cells_.size() - part_begin_;
     if (count != 1)
         return std::to_string(count) + " results";
-    const Kept& cell = cells_.back();
+    const CellText& cell = cells_.back();
     return cell.is_measured ? cell.verdict : "failed: " + cell.reason;
 }
 
 int ResultFile::exit_code() const
 {
-    if (!cells_.empty() && std::ranges::none_of(cells_, &Kept::is_measured))
+    if (!cells_.empty() && std::ranges::none_of(cells_, &CellText::is_measured))
         throw NothingMeasured(
             "nothing was measured: " + cells_.front().reason +
             (cells_.size() > 1 ? " (the first of " + counted(cells_.size()) + ")" : ""));
-    const auto is_wrong = [](const Kept& cell) {
+    const auto is_wrong = [](const CellText& cell) {
         return cell.is_measured && cell.verdict == verdict_name(Check::Verdict::differs);
     };
     return std::ranges::any_of(cells_, is_wrong) ? 1 : 0;

@@ -39,12 +39,12 @@ struct EndOfRun {
 /// has been measured.
 class ResultFile {
 public:
-    /// Takes over what a crashed process of the run `goes_on` has left or, if `resuming` is asked for, what earlier runs have left.
+    /// Takes over what a crashed process of the run `resumed_run` has left or, if `resuming` is asked for, what earlier runs have left.
     /// Otherwise throws BadUsage if there is a journal that `force` does not allow to replace. begin() must follow before add().
-    ResultFile(Output output, bool force, const Resuming& resuming, const std::string& goes_on);
+    ResultFile(Output output, bool force, const Resuming& resuming, const std::string& resumed_run);
 
     /// The same, begun with the facts of its run.
-    ResultFile(Output output, bool force, Json run, const std::string& goes_on = {});
+    ResultFile(Output output, bool force, Json run, const std::string& resumed_run = {});
 
     /// Writes unwritten cells and ignores errors. Call finish() to see them.
     ~ResultFile();
@@ -111,15 +111,15 @@ public:
 
 private:
     /// A cell's JSON text, which is made only once, the id of its run, and its outcome.
-    struct Kept {
+    struct CellText {
         std::string text, run, verdict, reason;
         bool is_measured;
     };
 
-    static Kept kept(Json cell, const std::string& run);
+    static CellText kept(Json cell, const std::string& run);
     void take_over(std::span<const Json> cells);
     void add_line(const char* kind, const std::string& text);
-    std::vector<Kept> all_cells() const;
+    std::vector<CellText> all_cells() const;
     bool is_worth_writing() const;
     void remove_journal() const;
     void write();
@@ -135,7 +135,7 @@ private:
     std::vector<Json>
         there_;  ///< its cells that earlier processes have measured and pass() has not taken over
     std::size_t taken_ = 0;  ///< number of these that it has
-    std::vector<Kept> cells_;
+    std::vector<CellText> cells_;
     std::vector<std::string> stress_;
     bool has_measured_ = false;  ///< whether there are cells that may replace an existing file
     bool is_left_ = false;       ///< whether another process goes on

@@ -21,33 +21,33 @@ public:
     {}
 
     /// Calibrates before the sample number `order` if calibrate_every samples have passed, or always if `must`.
-    void look(int order, bool must = false)
+    void calibrate_if_due(int order, bool must = false)
     {
         if (!calibrate_ || (!must && order < next_))
             return;
         next_ = order + plan_.rules.calibrate_every;
         std::int64_t ns = 0;
         if (reason_of_failure([&] { ns = calibrate_(); }).empty()) {
-            looks_.push_back({order, static_cast<double>(ns)});
+            results_.push_back({order, static_cast<double>(ns)});
         } else {  // samples are taken without calibration
             calibrate_ = nullptr;
-            looks_.clear();
+            results_.clear();
         }
     }
 
     /// True if the last calibration is within the drift limit of the median.
-    bool is_steady() const { return looks_.empty() || !is_off(looks_.back().ns, median()); }
+    bool is_steady() const { return results_.empty() || !is_off(results_.back().ns, median()); }
 
     /// Sets calibration_ns and drifted of the samples from the calibrations before and after each.
     void mark(std::vector<Sample>& samples) const
     {
-        if (looks_.size() < 2)
+        if (results_.size() < 2)
             return;
         const double usual = median();
         for (Sample& sample : samples) {
-            const auto after =
-                std::upper_bound(looks_.begin() + 1, looks_.end() - 1, sample.order,
-                                 [](int order, const Look& look) { return order < look.order; });
+            const auto after = std::upper_bound(
+                results_.begin() + 1, results_.end() - 1, sample.order,
+                [](int order, const Result& result) { return order < result.order; });
             const double before_ns = (after - 1)->ns;
             sample.calibration_ns = std::llround((before_ns + after->ns) / 2);
             sample.drifted = is_off(before_ns, usual) || is_off(after->ns, usual);
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    struct Look {
+    struct Result {
         int order;
         double ns;
     };
@@ -68,14 +68,14 @@ private:
     double median() const
     {
         std::vector<double> all;
-        for (const Look& look : looks_)
-            all.push_back(look.ns);
+        for (const Result& result : results_)
+            all.push_back(result.ns);
         return quantile(std::move(all), 0.5);
     }
 
     const SamplingPlan& plan_;
     std::function<std::int64_t()> calibrate_;
-    std::vector<Look> looks_;
+    std::vector<Result> results_;
     int next_ = 0;
 };
 

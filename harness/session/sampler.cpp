@@ -17,7 +17,7 @@ namespace {
 /// One call of take_samples: takes rounds until every cell has enough samples.
 class Rounds {
 public:
-    Rounds(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
+    Rounds(std::span<const CellToSample> cells, const SamplingPlan& plan, int& order,
            const std::function<std::int64_t()>& calibrate, Turns* turns, OtherProcesses* others)
         : cells_(cells)
         , plan_(plan)
@@ -44,7 +44,7 @@ public:
         }
     }
 
-    std::vector<Taken> run()
+    std::vector<CellSamples> run()
     {
         if (turns_ != nullptr)
             turns_->meet();
@@ -57,7 +57,7 @@ public:
         look_in_turn();
         if (turns_ != nullptr)
             turns_->part();
-        for (Taken& taken : taken_)
+        for (CellSamples& taken : taken_)
             drift_.mark(taken.samples);
         return std::move(taken_);
     }
@@ -66,7 +66,7 @@ private:
     void look_in_turn()
     {
         const Turns::Turn turn(turns_);
-        drift_.look(order_, true);
+        drift_.calibrate_if_due(order_, true);
     }
 
     void take_round(bool counts)
@@ -77,7 +77,7 @@ private:
         std::shuffle(going_.begin(), going_.end(), random_);
         for (const std::size_t i : going_) {
             if (counts)
-                drift_.look(order_);
+                drift_.calibrate_if_due(order_);
             take(i, counts);
         }
         stop_beaten();
@@ -101,7 +101,7 @@ private:
 
     void take(std::size_t i, bool counts)
     {
-        Taken& taken = taken_[i];
+        CellSamples& taken = taken_[i];
         std::vector<StageTime> stages;
         const int order = order_++;
         bool is_dropped = false;
@@ -134,7 +134,7 @@ private:
     }
 
     /// Counts a dropped sample. Throws Unavailable if there are too many.
-    static void drop(Taken& taken, const BadClock& error)
+    static void drop(CellSamples& taken, const BadClock& error)
     {
         const auto all = static_cast<std::size_t>(++taken.dropped) + taken.samples.size();
         if (taken.dropped > 1 && 10 * static_cast<std::size_t>(taken.dropped) > all)
@@ -142,14 +142,14 @@ private:
                               " samples had impossible times: " + clock_sentence(error));
     }
 
-    std::span<const Timed> cells_;
+    std::span<const CellToSample> cells_;
     const SamplingPlan& plan_;
     int& order_;
     Drift drift_;
     Turns* turns_;
     OtherProcesses* others_;
     std::mt19937 random_;
-    std::vector<Taken> taken_;
+    std::vector<CellSamples> taken_;
     std::vector<StoppingRule> rules_;
     std::vector<Runner> runners_;
     std::vector<std::size_t> going_;
@@ -189,9 +189,9 @@ double whole_ns(const std::vector<StageTime>& stages)
     return on_device ? std::max(sum, static_cast<double>(end)) : sum;
 }
 
-std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
-                                const std::function<std::int64_t()>& calibrate, Turns* turns,
-                                OtherProcesses* others)
+std::vector<CellSamples> take_samples(std::span<const CellToSample> cells, const SamplingPlan& plan,
+                                      int& order, const std::function<std::int64_t()>& calibrate,
+                                      Turns* turns, OtherProcesses* others)
 {
     return Rounds(cells, plan, order, calibrate, turns, others).run();
 }

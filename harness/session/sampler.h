@@ -15,7 +15,7 @@
 namespace bvhbench {
 
 /// One cell to sample.
-struct Timed {
+struct CellToSample {
     std::string name;
     /// Runs it, waits, returns its stages' times. Throws BadClock if they cannot be true: the sample is then dropped.
     std::function<std::vector<StageTime>()> once;
@@ -26,7 +26,7 @@ struct Timed {
 };
 
 /// The samples of one cell.
-struct Taken {
+struct CellSamples {
     std::vector<Sample> samples;  ///< in the order taken, without warm-up
     std::string failure;          ///< why sampling failed; empty if it did not
     Stopped stopped = Stopped::not_sampled;
@@ -48,9 +48,10 @@ struct Taken {
 /// With `turns`, each round is one turn among other runs. `others` looks for other processes before each round.
 ///
 /// `order` is the number of samples of the run so far, warm-up included; it is increased.
-std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
-                                const std::function<std::int64_t()>& calibrate = {},
-                                Turns* turns = nullptr, OtherProcesses* others = nullptr);
+std::vector<CellSamples> take_samples(std::span<const CellToSample> cells, const SamplingPlan& plan,
+                                      int& order,
+                                      const std::function<std::int64_t()>& calibrate = {},
+                                      Turns* turns = nullptr, OtherProcesses* others = nullptr);
 
 /// Returns the error as a sentence that offers the host's clock if the device's is wrong.
 std::string clock_sentence(const BadClock& error);

@@ -22,12 +22,12 @@
 
 namespace bvhbench {
 
-struct Subject;
+struct Measurement;
 
 /// The sampler of a program with one of its own (benchmarks/). Empty functions leave it to the engine (measure/engine.h).
 struct OtherSampler {
-    std::function<void(std::span<Subject>)> sample = {};  ///< samples what is ready
-    std::function<bool(const Cell&)> is_wanted = {};      ///< whether a cell is prepared at all
+    std::function<void(std::span<Measurement>)> sample = {};  ///< samples what is ready
+    std::function<bool(const Cell&)> is_wanted = {};          ///< whether a cell is prepared at all
 };
 
 /// The objects that a command works with: one device, its compiled programs, its queue, and builders that are made once.

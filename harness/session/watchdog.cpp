@@ -28,7 +28,7 @@ namespace {
 constexpr long over = -1;
 
 /// Memory shared by parent and child. The parent reads `until_ms` while the child runs, and the rest after it has ended.
-struct Told {
+struct SharedState {
     std::atomic<long> until_ms = 0;  ///< deadline, steady clock; 0: not watched; -1: expired
     std::array<char, 64> cell = {};
     std::array<char, 256> run = {};
@@ -38,19 +38,19 @@ struct Told {
 };
 static_assert(std::atomic<long>::is_always_lock_free);
 
-sigset_t unblocked;    // the signals as they were before supervised()
-Told* told = nullptr;  // nullptr: there is no parent
+sigset_t unblocked;             // the signals as they were before supervised()
+SharedState* shared = nullptr;  // nullptr: there is no parent
 double limit_ms = 0;
 
 // Run to continue and cells lost by earlier children. A child inherits copies from the parent.
-std::string goes_on;
-std::map<std::string, std::string> lost;
+std::string continued_run;
+std::map<std::string, std::string> lost_cells;
 
 template <std::size_t size>
-void tell(std::array<char, size> Told::*place, const std::string& text)
+void publish(std::array<char, size> SharedState::*place, const std::string& text)
 {
-    if (told != nullptr)
-        std::strncpy((told->*place).data(), text.c_str(), size - 1);
+    if (shared != nullptr)
+        std::strncpy((shared->*place).data(), text.c_str(), size - 1);
 }
 
 long now_ms()
@@ -74,22 +74,22 @@ void note_who_aborts(int)
     static void* const c_library = base_of(dlsym(RTLD_DEFAULT, "gnu_get_libc_version"));
     const auto is_c = [](void* frame) { return base_of(frame) == c_library; };
     const auto caller = std::find_if_not(std::find_if(frames.begin(), end, is_c), end, is_c);
-    told->ends_itself =
+    shared->ends_itself =
         caller != end && base_of(*caller) == base_of(reinterpret_cast<void*>(&note_who_aborts));
 }
 
 /// Returns how damaged kernels or too little address space can be why a process crashed by `signal`; empty if they cannot.
 std::string possible_cause(int signal)
 {
-    if (signal == SIGABRT && told->ends_itself)
+    if (signal == SIGABRT && shared->ends_itself)
         return {};
     rlimit space{};
     if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
         return "; the limit of address space (ulimit -v) can be why: raise it";
-    if (told->kernels[0] == '\0')
+    if (shared->kernels[0] == '\0')
         return {};
     return std::string("; damaged kernels in the OpenCL driver's cache can be why: remove ") +
-           told->kernels.data();
+           shared->kernels.data();
 }
 
 struct Ending {
@@ -124,9 +124,9 @@ Ending end_of(pid_t child, const sigset_t& awaited)
     constexpr timespec moment = {0, 100'000'000};
     Ending end;
     while (waitpid(child, &end.status, WNOHANG) != child) {
-        long until = told->until_ms;
+        long until = shared->until_ms;
         if (end.signal == 0 && until > 0 && now_ms() > until &&
-            told->until_ms.compare_exchange_strong(until, over)) {
+            shared->until_ms.compare_exchange_strong(until, over)) {
             end.late = true;
             kill(child, SIGKILL);
         }
@@ -159,8 +159,8 @@ int supervised(double limit_s, const std::function<int()>& work)
         return work();
     }
     limit_ms = 1000 * limit_s;
-    void* const memory =
-        mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    void* const memory = mmap(nullptr, sizeof(SharedState), PROT_READ | PROT_WRITE,
+                              MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED)
         throw Unavailable("out of host memory: there is no room for another process");
     sigset_t awaited;
@@ -171,21 +171,21 @@ int supervised(double limit_s, const std::function<int()>& work)
     std::signal(SIGCHLD, SIG_DFL);
     sigprocmask(SIG_BLOCK, &awaited, &unblocked);
     for (int held_back = 0;;) {
-        told = new (memory) Told;
+        shared = new (memory) SharedState;
         const pid_t self = getpid(), child = fork();
         if (child < 0)
             throw Unavailable("out of host memory: there is no room for another process");
         if (child == 0) {
             begin_child(self);
-            if (goes_on.empty())
+            if (continued_run.empty())
                 watchdog::let_signals_through();
             return work();
         }
         if (held_back != 0)
             kill(child, held_back);
         const Ending end = end_of(child, awaited);
-        if (told->wants_another && WIFEXITED(end.status) && WEXITSTATUS(end.status) == 0) {
-            goes_on = told->run.data();
+        if (shared->wants_another && WIFEXITED(end.status) && WEXITSTATUS(end.status) == 0) {
+            continued_run = shared->run.data();
             held_back = end.signal;  // it came when the child was about to end
             continue;
         }
@@ -197,64 +197,65 @@ int supervised(double limit_s, const std::function<int()>& work)
             raise(WTERMSIG(end.status));  // ends this process by the same signal
             return 128 + WTERMSIG(end.status);
         }
-        if (told->cell[0] == '\0' || told->run[0] == '\0')
+        if (shared->cell[0] == '\0' || shared->run[0] == '\0')
             throw Unavailable("what was to be done " + end.reason());
-        goes_on = told->run.data();
-        lost[told->cell.data()] = end.reason();
+        continued_run = shared->run.data();
+        lost_cells[shared->cell.data()] = end.reason();
     }
 }
 
 namespace watchdog {
 
-const std::string& run_id() { return goes_on; }
+const std::string& run_id() { return continued_run; }
 
 std::string given_up(const std::string& cell)
 {
-    const auto found = lost.find(cell);
-    return found == lost.end() ? std::string() : found->second;
+    const auto found = lost_cells.find(cell);
+    return found == lost_cells.end() ? std::string() : found->second;
 }
 
 void let_signals_through()
 {
-    if (told != nullptr)
+    if (shared != nullptr)
         sigprocmask(SIG_SETMASK, &unblocked, nullptr);
 }
 
-void go_on_with(const std::string& run_id)
+void resume_after_crash(const std::string& run_id)
 {
-    tell(&Told::run, run_id);
+    publish(&SharedState::run, run_id);
     let_signals_through();
 }
 
-bool can_begin_another() { return told != nullptr; }
+bool can_begin_another() { return shared != nullptr; }
 
 void begin_another()
 {
-    if (told != nullptr)
-        told->wants_another = true;
+    if (shared != nullptr)
+        shared->wants_another = true;
 }
 
-void kernels_are_in(const std::string& folder) { tell(&Told::kernels, folder); }
+void kernels_are_in(const std::string& folder) { publish(&SharedState::kernels, folder); }
 
-Hand::Hand(const std::string& cell) : around_(told == nullptr ? "" : told->cell.data())
+CellScope::CellScope(const std::string& cell)
+    : around_(shared == nullptr ? "" : shared->cell.data())
 {
-    tell(&Told::cell, cell);
+    publish(&SharedState::cell, cell);
 }
 
-Hand::~Hand() { tell(&Told::cell, around_); }
+CellScope::~CellScope() { publish(&SharedState::cell, around_); }
 
 Watch::Watch()
 {
-    if (told == nullptr || told->until_ms != 0)
+    if (shared == nullptr || shared->until_ms != 0)
         return;
     until_ = now_ms() + static_cast<long>(limit_ms);
-    told->until_ms = until_;
+    shared->until_ms = until_;
 }
 
 Watch::~Watch()
 {
     long expected = until_;
-    if (until_ != 0 && !told->until_ms.compare_exchange_strong(expected, 0))
+    if (until_ != 0 && !shared->until_ms.compare_exchange_strong(expected, 0))
         for (;;)  // the deadline has just expired: waits until the parent kills this process
             pause();
 }

@@ -14,8 +14,8 @@ namespace bvhbench {
 /// ending_signals() (harness/base/interrupt.h) on to the child. If another signal than those of a crash ends the child, it ends
 /// this process too.
 ///
-/// If what a watchdog::Watch limits exceeds `limit_s` or the child crashes during a cell of a run named by go_on_with(), another child
-/// continues the run; outside of such a cell, Unavailable is thrown, as it is if no process can be made. With a limit of 0,
+/// If what a watchdog::Watch limits exceeds `limit_s` or the child crashes during a cell of a run named by resume_after_crash(), another
+/// child continues the run; outside of such a cell, Unavailable is thrown, as it is if no process can be made. With a limit of 0,
 /// `work` runs in this process without a watchdog.
 int supervised(double limit_s, const std::function<int()>& work);
 
@@ -29,7 +29,7 @@ const std::string& run_id();
 std::string given_up(const std::string& cell);
 
 /// Names the run that the next child continues, from the journal with its finished cells. Calls let_signals_through().
-void go_on_with(const std::string& run_id);
+void resume_after_crash(const std::string& run_id);
 
 /// Lets signals end this process. If it continues a run they are held back before, so that the cells of earlier processes are taken
 /// over and kept first.
@@ -38,20 +38,20 @@ void let_signals_through();
 /// True if a process waits that can start another one.
 bool can_begin_another();
 
-/// Asks for another child once this one has ended with code 0. It continues the run that go_on_with() names.
+/// Asks for another child once this one has ended with code 0. It continues the run that resume_after_crash() names.
 void begin_another();
 
 /// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it, unless the program's own
 /// code called abort, as a failed assertion does, or the address space is limited, which is then named instead.
 void kernels_are_in(const std::string& folder);
 
-/// Marks the work during its lifetime as done for `cell`, and what follows as done for the cell of the Hand around it, if any.
-class Hand {
+/// Marks the work during its lifetime as done for `cell`, and what follows as done for the cell of the CellScope around it, if any.
+class CellScope {
 public:
-    explicit Hand(const std::string& cell);
-    ~Hand();
-    Hand(const Hand&) = delete;
-    Hand& operator=(const Hand&) = delete;
+    explicit CellScope(const std::string& cell);
+    ~CellScope();
+    CellScope(const CellScope&) = delete;
+    CellScope& operator=(const CellScope&) = delete;
 
 private:
     std::string around_;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <future>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/bits.h"
 #include "harness/base/failure.h"
 #include "harness/measure/engine.h"
@@ -32,9 +32,9 @@ Finding judge_layout(const BuilderEntry& entry, const Tree& tree, const Builder&
                      uint triangles)
 {
     const std::size_t nodes = tree.node_count();
-    const bool has_the_papers = entry.oracle == "oibvh-reference" && entry.name != "perfect";
+    const bool has_paper_layout = entry.oracle == "oibvh-reference" && entry.name != "perfect";
     if (const std::size_t right = oi_node_count(oi_shape(triangles));
-        has_the_papers && nodes != right)
+        has_paper_layout && nodes != right)
         return {broken, nodes, 0, 0,
                 "it stores " + std::to_string(nodes) + " nodes, and Eq. (7) says " +
                     std::to_string(right)};
@@ -59,7 +59,7 @@ std::pair<Findings, HostTree> built_once(Session& session, Builder& builder,
     const auto stages = session.build_once(builder, input, Start::from_triangles, &tree);
     return {{{Invariant::ends, judge_launches(stages, triangles)},
              {Invariant::layout, judge_layout(entry, *tree, builder, triangles)}},
-            tree->spelled_out()};
+            tree->to_host_tree()};
 }
 
 /// Builds once, then repeatedly, and returns the findings.
@@ -76,20 +76,20 @@ Findings judge_builds(SceneUnderStress& scene, const BuilderChoice& choice)
     findings[Invariant::same] = judge_repeats(scene.repeats, [&] {
         const Tree* again = nullptr;
         scene.session.build_once(builder, input, Start::from_triangles, &again);
-        return tree_hash(again->spelled_out()) == check.tree_hash;
+        return tree_hash(again->to_host_tree()) == check.tree_hash;
     });
     return findings;
 }
 
 }  // namespace
 
-Findings settled(Session& session, bool may_refuse, const std::function<Findings()>& judge)
+Findings findings_of(Session& session, bool may_refuse, const std::function<Findings()>& judge)
 {
     Findings findings;
-    Subject subject;
+    Measurement measurement;
     int order = 0;
-    Engine(session, {}, order).settle(subject, [&] { findings = judge(); });
-    const Cell& cell = subject.cell;
+    Engine(session, {}, order).prepare(measurement, [&] { findings = judge(); });
+    const Cell& cell = measurement.cell;
     if (cell.status == Cell::Status::measured)
         findings.try_emplace(Invariant::ends, Finding{holds, 1});
     else if (may_refuse || cell.status == Cell::Status::skipped)
@@ -117,9 +117,9 @@ Findings judge_builder(SceneUnderStress& scene, const PipelineChoice& alone)
     const Input& input = scene.input();
     std::string wrong;
     // A group size that was asked for may be unsupported, or need too much local memory.
-    Findings findings = settled(scene.session, choice.group_size != 0, [&]() -> Findings {
+    Findings findings = findings_of(scene.session, choice.group_size != 0, [&]() -> Findings {
         bool is_refused = false;
-        wrong = broken_contract(scene.session, choice, input, scene.oracle(), &is_refused);
+        wrong = contract_violation(scene.session, choice, input, scene.oracle(), &is_refused);
         if (!is_refused)
             return judge_builds(scene, choice);
         const std::string why(find_builder(choice.name).may_refuse);
@@ -133,7 +133,7 @@ Findings judge_builder(SceneUnderStress& scene, const PipelineChoice& alone)
 Findings judge_large_build(SceneUnderStress& scene, const PipelineChoice& alone)
 {
     const Input& input = scene.input();
-    return settled(scene.session, false, [&] {
+    return findings_of(scene.session, false, [&] {
         const BuilderEntry& entry = find_builder(alone.builder.name);
         const auto builder = make_builder(alone.builder, scene.session.programs());
         auto [findings, tree] = built_once(scene.session, *builder, entry, input);
@@ -153,7 +153,7 @@ Findings judge_layout_formulas(const StressSize& size)
 {
     Finding finding;
     const auto look_at = [&](uint leaves) {
-        const std::string wrong = broken_layout(leaves);
+        const std::string wrong = layout_violation(leaves);
         join(finding, wrong.empty() ? Finding{holds, 1} : Finding{broken, 1, 1, 0, wrong});
     };
     const uint count = size.quick ? 10000 : 1000000;

@@ -52,7 +52,7 @@ Findings tried(SceneUnderStress& scene, Asker& asker, const Tuning& tuning)
         const Mesh& mesh = scene.scene().mesh;
         const Input input = upload(own.device(), own.queue(), mesh.points, mesh.faces);
         const BuilderChoice& builder = asker.pipeline.builder;
-        const HostTree tree = built_tree(own, builder, input).spelled_out();
+        const HostTree tree = built_tree(own, builder, input).to_host_tree();
         Oracle oracle(own, input);
         const Check check = check_tree(tree, input, builder, oracle);
         const bool is_wrong = check.verdict == Check::Verdict::differs;
@@ -117,10 +117,10 @@ std::vector<StressSystem> group_size_systems(Session& session, bool few)
                 tuning.set(*parameter, value);
                 return tried(scene, *asker, tuning);
             };
-            // `settled` turns an unsupported group size, or too little local memory, into a refusal.
+            // `findings_of` turns an unsupported group size, or too little local memory, into a refusal.
             const uint least = std::max(1u, parameter->least);
             join(findings, judged_values(least, parameter->most, few, [&](uint value) {
-                     return settled(scene.session, true, [&] { return judge(value); });
+                     return findings_of(scene.session, true, [&] { return judge(value); });
                  }));
             return findings;
         });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/stress/judge.h"
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "harness/judge/pair_counts.h"
 
 namespace bvhbench {
@@ -25,14 +25,14 @@ Findings compared(const FoundPairs& found, const FoundPairs& expected)
 Findings judge_tree(const HostTree& tree, std::span<const Point> points,
                     std::span<const Face> faces)
 {
-    const Breach breach = first_breach(tree, points, faces);
+    const Violation violation = first_violation(tree, points, faces);
     Findings findings = {{Invariant::leaves, {holds, faces.size()}},
                          {Invariant::boxes, {holds, tree.nodes.size()}}};
-    if (breach.of != Breach::Of::nothing) {
+    if (violation.of != Violation::Of::nothing) {
         Finding& of =
-            findings[breach.of == Breach::Of::leaves ? Invariant::leaves : Invariant::boxes];
+            findings[violation.of == Violation::Of::leaves ? Invariant::leaves : Invariant::boxes];
         of.verdict = broken;
-        of.detail = breach.sentence;
+        of.detail = violation.sentence;
     }
     return findings;
 }

@@ -71,7 +71,7 @@ Input uploaded(Session& session, const StressScene& scene)
 FoundPairs found_next(Pipeline& pipeline, const PipelineChoice& chosen, const Input& input)
 {
     pipeline.begin_frame({});
-    pipeline.settle(input);
+    pipeline.prepare(input);
     FoundPairs found;
     found.is_rounded = find_box_format(chosen.builder.boxes).has_cells();
     if (pipeline.has_pairs())
@@ -168,7 +168,7 @@ Findings judge_pipeline(SceneUnderStress& scene, const PipelineChoice& chosen)
     const StressQuestion& question =
         chosen.collider.keep_adjacent ? scene.question() : scene.question_apart();
     // A library's collider may refuse a scene with any error; this project's may do so with BadUsage only.
-    return settled(session, is_library(chosen), [&]() -> Findings {
+    return findings_of(session, is_library(chosen), [&]() -> Findings {
         if (scene.repeats == 0)
             return judge_finder(finder_of(session, chosen), question);
         const Input input = uploaded(session, scene.scene());
@@ -186,7 +186,7 @@ Findings judge_large_query(SceneUnderStress& scene, const PipelineChoice& chosen
     pipeline.collider.narrow = "none";
     const PairList& expected = scene.pairs();
     scene.input.value.reset();  // frees memory: the pipeline uploads its own input
-    Findings findings = settled(scene.session, false, [&]() -> Findings {
+    Findings findings = findings_of(scene.session, false, [&]() -> Findings {
         const FoundPairs found = finder_of(scene.session, pipeline)(scene.scene(), 0);
         return {{Invariant::pairs, judge_pairs(*found.pairs, expected)}};
     });

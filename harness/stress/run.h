@@ -68,7 +68,7 @@ struct StressSystem {
 
 /// Runs `judge` through the engine like every measured cell (harness/measure/engine.h) and turns a failure into a finding:
 /// `refused` if the system may refuse or does not support its options, else `broken`.
-Findings settled(Session& session, bool may_refuse, const std::function<Findings()>& judge);
+Findings findings_of(Session& session, bool may_refuse, const std::function<Findings()>& judge);
 
 /// True if the choice is a builder alone, without a collider. A collider without a tree has an empty builder name.
 inline bool is_builder(const PipelineChoice& choice) { return choice.collider.name.empty(); }

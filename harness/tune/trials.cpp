@@ -57,7 +57,7 @@ public:
     {
         once();
         check_ = check_ ? check_again(*tree_, input_, *check_)
-                        : check_tree(tree_->spelled_out(), input_, choice_, oracle_);
+                        : check_tree(tree_->to_host_tree(), input_, choice_, oracle_);
         return check_->verdict == Check::Verdict::differs ? check_->detail : std::string();
     }
 
@@ -95,7 +95,7 @@ public:
             input.points = scene.frames[frame];
             input.device_points.upload(session_.queue().cl(), input.points);
             pipeline_.begin_frame({});
-            pipeline_.settle(input_);
+            pipeline_.prepare(input_);
         }
     }
 

@@ -41,7 +41,7 @@ double standard_error(const std::vector<double>& values)
 
 /// A value with its trial; the trial is null if it failed or was wrong.
 struct Contender {
-    Tried tried;
+    TrialResult tried;
     std::unique_ptr<Trial> trial;
 };
 
@@ -54,7 +54,7 @@ struct Search {
     std::string last_failure = {};  ///< of the last failed trial
 
     /// Searches the best value of one parameter. True if another value than the current one was kept.
-    bool settle(const Parameter& parameter)
+    bool tune_parameter(const Parameter& parameter)
     {
         std::vector<Contender> all;
         const uint current = result.best.value(parameter, options.is_cpu);
@@ -62,7 +62,7 @@ struct Search {
         if (all.front().trial == nullptr)
             throw Unavailable(std::string(parameter.name) + ": the value it has is " +
                               all.front().tried.detail);
-        all.front().tried.verdict = Tried::Verdict::current;
+        all.front().tried.verdict = TrialResult::Verdict::current;
         for (const uint value : parameter.candidates)
             if (value != current && parameter.refusal(value).empty())
                 all.push_back(contender(parameter, value));
@@ -100,14 +100,14 @@ struct Search {
         const std::string failure = reason_of_failure([&] {
             one.trial = make(tuning);
             if (const std::string why = one.trial->wrong(); !why.empty())
-                reject(one, Tried::Verdict::wrong, why);
+                reject(one, TrialResult::Verdict::wrong, why);
         });
         if (!failure.empty())
-            reject(one, Tried::Verdict::impossible, failure);
+            reject(one, TrialResult::Verdict::impossible, failure);
         return one;
     }
 
-    static void reject(Contender& one, Tried::Verdict verdict, const std::string& why)
+    static void reject(Contender& one, TrialResult::Verdict verdict, const std::string& why)
     {
         one.tried.verdict = verdict;
         one.tried.detail = why.substr(0, why.find('\n'));  // without the lines of a compiler's log
@@ -128,7 +128,7 @@ struct Search {
             if (one.trial == nullptr)
                 continue;
             if (times[k].empty()) {
-                reject(one, Tried::Verdict::impossible, last_failure);
+                reject(one, TrialResult::Verdict::impossible, last_failure);
                 continue;
             }
             one.tried.median_ns = median(times[k]);
@@ -147,17 +147,18 @@ struct Search {
         const std::vector<std::vector<double>> times =
             sampled({current.trial.get(), best.trial.get()}, parameter.stage);
         if (const std::string why = best.trial->wrong(); !why.empty()) {
-            reject(best, Tried::Verdict::wrong, why);
+            reject(best, TrialResult::Verdict::wrong, why);
             return false;
         }
-        best.tried.verdict = Tried::Verdict::not_again;
+        best.tried.verdict = TrialResult::Verdict::not_again;
         if (times[0].empty() || times[1].empty() || !is_faster(times[1], times[0]))
             return false;
-        best.tried.verdict = Tried::Verdict::better;
+        best.tried.verdict = TrialResult::Verdict::better;
         best.tried.median_ns = median(times[1]);
         best.tried.ratio = best.tried.median_ns / median(times[0]);
         result.best.set(parameter, best.tried.value);
-        std::erase_if(result.kept, [&](const Tried& one) { return one.parameter == &parameter; });
+        std::erase_if(result.kept,
+                      [&](const TrialResult& one) { return one.parameter == &parameter; });
         result.kept.push_back(best.tried);
         return true;
     }
@@ -168,7 +169,7 @@ struct Search {
     {
         std::vector<std::vector<double>> times(trials.size());
         std::vector<std::vector<double>*> places;
-        std::vector<Timed> timed;
+        std::vector<CellToSample> timed;
         for (std::size_t k = 0; k < trials.size(); ++k)
             if (Trial* trial = trials[k]; trial != nullptr) {
                 timed.push_back({"trial", [trial] { return trial->once(); }});
@@ -176,7 +177,7 @@ struct Search {
             }
         auto place = places.begin();
         const SamplingPlan plan{.samples = options.samples, .warm_up = options.warm_up};
-        for (const Taken& taken : take_samples(timed, plan, order)) {
+        for (const CellSamples& taken : take_samples(timed, plan, order)) {
             if (taken.failure.empty())
                 **place = times_of(taken.samples, stage);
             else
@@ -221,7 +222,7 @@ SearchResult search(const MakeTrial& make, const Tuning& start,
     for (int round = 0; round < options.rounds; ++round) {
         int kept = 0;
         for (const Parameter* parameter : parameters)
-            kept += turn.settle(*parameter) ? 1 : 0;
+            kept += turn.tune_parameter(*parameter) ? 1 : 0;
         if (kept == 0)
             break;
     }
@@ -238,7 +239,7 @@ std::string search_report(const SearchResult& result)
                  {"median"},
                  {"to current"},
                  {"verdict", left}});
-    for (const Tried& tried : result.tries)
+    for (const TrialResult& tried : result.tries)
         table.row({std::string(tried.parameter->name), std::to_string(tried.value),
                    tried.parameter->stage.empty() ? "all" : std::string(tried.parameter->stage),
                    tried.median_ns > 0 ? duration_text(tried.median_ns) : "",

@@ -41,7 +41,7 @@ struct SearchOptions {
 };
 
 /// A value that was tried, and the result.
-struct Tried {
+struct TrialResult {
     enum class Verdict {
         current,     ///< the value that the others were compared to
         better,      ///< faster by more than noise in two comparisons: kept
@@ -61,8 +61,8 @@ struct Tried {
 /// Result of a search; a partial one if the search was stopped.
 struct SearchResult {
     Tuning best;                          ///< all parameters: as given, defaults, and kept values
-    std::vector<Tried> kept;              ///< each parameter once, the last value
-    std::vector<Tried> tries;             ///< in the order made
+    std::vector<TrialResult> kept;        ///< each parameter once, the last value
+    std::vector<TrialResult> tries;       ///< in the order made
     std::set<const Parameter*> searched;  ///< parameters whose search is finished
     double start_ns = 0, best_ns = 0;     ///< medians of whole runs, in the end; 0: not compared
 };

@@ -42,7 +42,7 @@ std::vector<Aabb> WideTree::stored_boxes(uint object) const
     return boxes;
 }
 
-HostTree WideTree::spelled_out_object(uint object) const
+HostTree WideTree::object_to_host_tree(uint object) const
 {
     const ForestObject& own = objects.at(object);
     const uint bits = format.child_bits, leaf_level = wide_leaf_level(own.leaves, bits);

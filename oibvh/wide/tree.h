@@ -31,7 +31,7 @@ public:
     Buffer<uint> ids;
 
     std::size_t node_count() const override;
-    HostTree spelled_out_object(uint object) const override;
+    HostTree object_to_host_tree(uint object) const override;
 
     /// Returns the boxes of an object's nodes as stored in their parents: child k of the inner node in slot s is at [s *
     /// children + k]. Entries of virtual children are undefined.

@@ -56,7 +56,7 @@ def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[
                     "pipelines": [{"builder": {"name": arguments.builder, **options}, "collider": arguments.collider,
                                    "adjacent": "drop", "narrow": "exact"}]} for scene in arguments.scene]
     files: list[str] = []
-    for answer in child.settled(experiments, command.common_words(arguments)):
+    for answer in child.expanded(experiments, command.common_words(arguments)):
         if "error" in answer:
             raise output.WrongUsage(answer["error"])
         files += answer.get("files", [])

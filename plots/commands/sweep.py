@@ -89,7 +89,7 @@ def described(arguments: argparse.Namespace) -> Json:
 def planned(arguments: argparse.Namespace) -> Sweep:
     words = command.common_words(arguments, "--device")
     try:
-        return swept_of(described(arguments), lambda experiments: child.settled(experiments, words))
+        return swept_of(described(arguments), lambda experiments: child.expanded(experiments, words))
     except WrongUsage as wrong:
         raise WrongUsage(f"{arguments.file}: {wrong}" if arguments.file else str(wrong)) from wrong
 

@@ -135,7 +135,7 @@ def stem(path: pathlib.Path, figure: str) -> str:
     return name if figure in name else f"{name}-{figure}"
 
 
-def settle(figure: plt.Figure) -> None:
+def fix_layout(figure: plt.Figure) -> None:
     """Fixes the layout, rounded: the last digits depend on earlier drawings, and clip paths are named after them."""
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
@@ -153,7 +153,7 @@ def with_palette(png: io.BytesIO) -> bytes:
 def content(figure: plt.Figure, kind: str) -> bytes:
     """Returns the picture as ".png" or ".svg". Equal numbers give equal bytes: no dates, no random names."""
     if figure.get_layout_engine() is not None:
-        settle(figure)
+        fix_layout(figure)
     how = {"dpi": DPI} if kind == ".png" else {"metadata": {"Date": None, "Creator": None}}
     with io.BytesIO() as made:
         figure.savefig(made, format=kind[1:], **how)

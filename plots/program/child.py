@@ -82,6 +82,6 @@ def facts(words: list[str]) -> dict[str, Any]:
     return answer(["facts", *words])["run"]
 
 
-def settled(experiments: list[dict[str, Any]], words: list[str]) -> list[dict[str, Any]]:
+def expanded(experiments: list[dict[str, Any]], words: list[str]) -> list[dict[str, Any]]:
     """Returns the program's description of each experiment: its cells, triangles and files, or an error."""
-    return answer(["settle", *words], json.dumps(experiments).encode())
+    return answer(["expand", *words], json.dumps(experiments).encode())

@@ -5,7 +5,7 @@ import os
 from ..files.json_files import Refused
 from ..files.output import WrongUsage
 from ..program import child, command
-from ..sweeping.planned import Json, Planned, Sweep, settled
+from ..sweeping.planned import Json, Planned, Sweep, expanded
 from ..words import tables
 from . import candidates
 
@@ -66,7 +66,7 @@ class Plan:
         asked = candidates.Asked(self.objective, is_cpu, arguments.with_libraries, has_narrow, several,
                                  *(named(arguments, key) for key in ("builders", "orders", "colliders", "boxes")))
         self.product = candidates.Product(asked, lambda what: list_of(what, self.words))
-        self.cells = self.settled(self.scenes[0], self.product.candidates())
+        self.cells = self.expanded(self.scenes[0], self.product.candidates())
         if all(one.why_not for one in self.cells):
             raise WrongUsage(f"nothing can be measured: {self.cells[0].why_not}" if self.cells else "the product is empty")
 
@@ -74,14 +74,14 @@ class Plan:
     def possible(self) -> list[Planned]:
         return [one for one in self.cells if not one.why_not]
 
-    def settle(self, experiments: list[Json]) -> list[Json]:
-        return child.settled(experiments, self.words)
+    def expand(self, experiments: list[Json]) -> list[Json]:
+        return child.expanded(experiments, self.words)
 
-    def settled(self, scene: Json, pairs: list[tuple[Json | None, Json | None]]) -> list[Planned]:
+    def expanded(self, scene: Json, pairs: list[tuple[Json | None, Json | None]]) -> list[Planned]:
         """Returns each cell once, as the program describes it, or with the reason why it cannot be."""
         planned = [Planned(self.scene_of(scene), builder and dict(builder), collider and dict(collider),
                            dict(self.query) if collider else {}) for builder, collider in pairs]
-        return list({one.cell.identity: one for one in reversed(settled(planned, self.sweep, self.settle))}.values())[::-1]
+        return list({one.cell.identity: one for one in reversed(expanded(planned, self.sweep, self.expand))}.values())[::-1]
 
     def scene_of(self, scene: Json) -> Json:
         return {"scene": scene["scene"]} if self.objective == "build" else dict(scene)
@@ -92,7 +92,7 @@ class Plan:
         for scene in self.scenes:
             collider = None if self.objective == "build" else {"name": "leaf"}
             one = Planned(self.scene_of(scene), {"name": "oibvh-multi"}, collider, dict(self.query) if collider else {})
-            answered, = self.settle([self.sweep.experiment([one])])
+            answered, = self.expand([self.sweep.experiment([one])])
             if answered.get("error"):
                 raise WrongUsage(answered["error"])
             there = [file for file in answered["files"] if file]
@@ -108,7 +108,7 @@ class Plan:
         asked += [Planned({"scene": USUAL}, builder | {"order": name}, None, {}) for name in named(arguments, "orders")]
         asked += [Planned({"scene": USUAL}, builder | {"boxes": name}, None, {}) for name in named(arguments, "boxes")]
         asked += [Planned({"scene": USUAL}, builder, collider | {"name": name}, {}) for name in named(arguments, "colliders")]
-        for answered in self.settle([self.sweep.experiment([one]) for one in asked]) if asked else []:
+        for answered in self.expand([self.sweep.experiment([one]) for one in asked]) if asked else []:
             if answered.get("error"):
                 raise WrongUsage(answered["error"])
 

@@ -7,7 +7,7 @@ from typing import Any
 from ..read import cells
 
 Json = dict[str, Any]
-Settle = Callable[[list[Json]], list[Json]]  # returns the program's answers to experiments
+Expand = Callable[[list[Json]], list[Json]]  # returns the program's answers to experiments
 
 NO_BUILDER = "none"  # for colliders without a tree
 # Options that a sweep varies, in the order in which they are applied: the part that each belongs to, and its key there.
@@ -60,10 +60,10 @@ class Sweep:
         return described if collides else described | {"quality": self.quality}
 
 
-def settled(planned: list[Planned], sweep: Sweep, settle: Settle) -> list[Planned]:
-    for one, answer in zip(planned, settle([sweep.experiment([one]) for one in planned]), strict=True):
+def expanded(planned: list[Planned], sweep: Sweep, expand: Expand) -> list[Planned]:
+    for one, answer in zip(planned, expand([sweep.experiment([one]) for one in planned]), strict=True):
         one.why_not = answer.get("error", "")
-        one.raw = unsettled(one, sweep) if one.why_not else answer["cells"][0]
+        one.raw = unexpanded(one, sweep) if one.why_not else answer["cells"][0]
         if not one.why_not:
             say_all_options(one)
     return planned
@@ -82,7 +82,7 @@ def say_all_options(one: Planned) -> None:
         one.collider = {"name": one.raw["collider"]["name"], **options}
 
 
-def unsettled(one: Planned, sweep: Sweep) -> Json:
+def unexpanded(one: Planned, sweep: Sweep) -> Json:
     """Returns a skipped cell's JSON, from its description."""
     def choice(described: Json) -> Json:
         options = {key: int(value) if str(value).isdecimal() else value for key, value in described.items() if key != "name"}

@@ -8,7 +8,7 @@ from typing import Any
 from ..files.output import WrongUsage
 from ..words import tables
 from . import sizes
-from .planned import NO_BUILDER, OPTIONS, Json, Planned, Settle, Sweep, settled
+from .planned import NO_BUILDER, OPTIONS, Expand, Json, Planned, Sweep, expanded
 
 KEYS = ("sweep", "question", "scenes", "sizes", "builders", "orders", "colliders", "set", "samples", "warm_up", "quality")
 HOLE = "{size}"
@@ -44,7 +44,7 @@ def all_named(described: Json, key: str) -> list[Json]:
     return items
 
 
-def swept_of(described: Json, settle: Settle) -> Sweep:
+def swept_of(described: Json, expand: Expand) -> Sweep:
     """Returns the sweep. Raises WrongUsage, naming the key. An impossible combination of valid parts is a cell with a reason."""
     for key in described:
         if key not in KEYS:
@@ -60,10 +60,10 @@ def swept_of(described: Json, settle: Settle) -> Sweep:
         raise WrongUsage("'question' must be text")
     sweep = Sweep(name, described.get("question", ""), whole(described, "samples", 1, 20), whole(described, "warm_up", 0, 3),
                   described.get("quality", False), "", [])
-    scenes = scenes_of(described, sweep, settle)
+    scenes = scenes_of(described, sweep, expand)
     options = options_of(described)
     builders, colliders = builders_of(described), all_named(described, "colliders") if "colliders" in described else [None]
-    of_colliders, of_scenes = check_each(described, sweep, scenes, builders, colliders, options, settle)
+    of_colliders, of_scenes = check_each(described, sweep, scenes, builders, colliders, options, expand)
     count = len(scenes) * len(builders) * len(colliders)
     for _, values in options:
         count *= len(values)
@@ -75,7 +75,7 @@ def swept_of(described: Json, settle: Settle) -> Sweep:
                for (scene, about), builder, (collider, wants_tree) in itertools.product(zip(scenes, of_scenes, strict=True), builders,
                                                                                         zip(colliders, trees, strict=True))
                for chosen in itertools.product(*(values for _, values in options))]
-    sweep.cells = each_once(settled(planned, sweep, settle))
+    sweep.cells = each_once(expanded(planned, sweep, expand))
     counts = [("scene", len(scenes))]
     counts += [(key[:-1], len(described[key])) for key in ("builders", "orders", "colliders") if key in described]
     sweep.product = " x ".join([tables.counted(number, what) for what, number in counts]
@@ -83,7 +83,7 @@ def swept_of(described: Json, settle: Settle) -> Sweep:
     return sweep
 
 
-def scenes_of(described: Json, sweep: Sweep, settle: Settle) -> list[Json]:
+def scenes_of(described: Json, sweep: Sweep, expand: Expand) -> list[Json]:
     """Returns each scene once, or once for each size if its name has a place for one."""
     given = described.get("sizes", [])
     of_sizes = [] if "sizes" not in described else sizes.called(
@@ -93,7 +93,7 @@ def scenes_of(described: Json, sweep: Sweep, settle: Settle) -> list[Json]:
         if not isinstance(item, dict) or not isinstance(item.get("scene"), str):
             raise WrongUsage("'scene' must be text")
     scenes, has_sized = [], False
-    for scene, answer in zip(items, settle([experiment_over({"scene": item["scene"]}, sweep) for item in items]), strict=True):
+    for scene, answer in zip(items, expand([experiment_over({"scene": item["scene"]}, sweep) for item in items]), strict=True):
         name = scene["scene"]
         if of_sizes and answer.get("sized"):
             name += f":{HOLE}"
@@ -158,7 +158,7 @@ def experiment_over(scene: Json, sweep: Sweep, builder: Json | None = None, coll
 
 
 def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list[Json], colliders: list[Json | None],
-               options: list[tuple[str, list[str]]], settle: Settle) -> tuple[list[Json], list[Json]]:
+               options: list[tuple[str, list[str]]], expand: Expand) -> tuple[list[Json], list[Json]]:
     """Returns the program's answers for each collider and each scene. Raises WrongUsage for a part that is always invalid."""
     usual = {"scene": "soup:1"}
     asked = [("", experiment_over(usual, sweep, builder)) for builder in builders]
@@ -171,7 +171,7 @@ def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list
             with_options(one, [(key, values)], (value,))
             asked.append((f"--set {key}: " if own != key else "",
                           experiment_over(one.scene, sweep, one.builder, one.collider, one.query)))
-    answers = settle([experiment for _, experiment in asked])
+    answers = expand([experiment for _, experiment in asked])
     for (where, _), answer in zip(asked, answers, strict=True):
         if answer.get("error"):
             raise WrongUsage(where + answer["error"])

@@ -83,7 +83,7 @@ TEST(Hploc, StaysWithinTheLevelsThatItDeclares)
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
         builder->reserve(mesh.faces.size());
         const auto& tree = dynamic_cast<const DeviceTree&>(builder->build(input, bench().queue));
-        EXPECT_LT(depth_of(tree.spelled_out()), static_cast<int>(tree.most_levels()));
+        EXPECT_LT(depth_of(tree.to_host_tree()), static_cast<int>(tree.most_levels()));
         bench().queue.finish();
     }
 }
@@ -95,10 +95,10 @@ TEST(Hploc, GivesTheSameTreeAHundredTimes)
     const auto builder = make_hploc(bench().programs, {});
     builder->reserve(20000);
     const Tree& tree = builder->build(input, bench().queue);
-    const std::uint64_t first = tree_hash(tree.spelled_out());
+    const std::uint64_t first = tree_hash(tree.to_host_tree());
     for (int repeat = 0; repeat < 100; ++repeat) {
         builder->build(input, bench().queue, Start::from_sorted_leaves);
-        ASSERT_EQ(tree_hash(tree.spelled_out()), first);
+        ASSERT_EQ(tree_hash(tree.to_host_tree()), first);
     }
     bench().queue.finish();
 }
@@ -126,7 +126,7 @@ TEST(Hploc, OfAForestMakesTheReferencesTreeOfEachObject)
         const auto& forest = dynamic_cast<const DeviceTree&>(builder->build(input, bench().queue));
         bench().queue.finish();
         for (uint k = 0; k < sizes.size(); ++k) {
-            HostTree tree = forest.spelled_out_object(k);
+            HostTree tree = forest.object_to_host_tree(k);
             for (HostTree::Node& node : tree.nodes)
                 if (node.primitive != HostTree::none)
                     node.primitive -= static_cast<int>(objects[k].first);

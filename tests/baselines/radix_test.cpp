@@ -91,7 +91,7 @@ TEST(RadixBuilders, MakeABalancedTreeOfEqualCodes)
     for (const MakeBuilder make : makers) {
         const auto builder = make(bench().programs, {});
         builder->reserve(4096);
-        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 12);
+        EXPECT_EQ(depth_of(builder->build(input, bench().queue).to_host_tree()), 12);
         bench().queue.finish();
     }
 }
@@ -109,7 +109,7 @@ TEST(RadixBuilders, EqualTheReferenceOnTheDeepestTreesOfTheirCodes)
     for (const MakeBuilder make : makers) {
         const auto builder = make(bench().programs, {.order = "morton63"});
         builder->reserve(mesh.faces.size());
-        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 63 + 6);
+        EXPECT_EQ(depth_of(builder->build(input, bench().queue).to_host_tree()), 63 + 6);
         bench().queue.finish();
     }
 }
@@ -123,10 +123,10 @@ TEST(RadixBuilders, GiveTheSameTreeAHundredTimes)
             const auto builder = make(bench().programs, {.group_size = group_size});
             builder->reserve(20000);
             const Tree& tree = builder->build(input, bench().queue);
-            const std::uint64_t first = tree_hash(tree.spelled_out());
+            const std::uint64_t first = tree_hash(tree.to_host_tree());
             for (int repeat = 0; repeat < 100; ++repeat) {
                 builder->build(input, bench().queue, Start::from_sorted_leaves);
-                ASSERT_EQ(tree_hash(tree.spelled_out()), first);
+                ASSERT_EQ(tree_hash(tree.to_host_tree()), first);
             }
             bench().queue.finish();
         }
@@ -148,9 +148,9 @@ TEST(RadixBuilders, LaunchOnceForAllLevelsWhereGroupsWait)
     for (const unsigned group_size : {0u, 64u}) {
         const auto builder = make_levels_at_once(bench().programs, {.group_size = group_size});
         builder->reserve(1000);
-        const std::uint64_t built = tree_hash(builder->build(input, bench().queue).spelled_out());
+        const std::uint64_t built = tree_hash(builder->build(input, bench().queue).to_host_tree());
         EXPECT_EQ(launches_of("hierarchy"), 1);
-        EXPECT_EQ(tree_hash(builder->refit(input, bench().queue).spelled_out()), built);
+        EXPECT_EQ(tree_hash(builder->refit(input, bench().queue).to_host_tree()), built);
         EXPECT_EQ(launches_of("refit"), 1);
     }
 }

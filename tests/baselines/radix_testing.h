@@ -72,8 +72,8 @@ inline void expect_the_trees_of(MakeBuilder make_reference, std::span<const Make
     for (const BuildOptions& options : ways) {
         const auto reference = make_reference(bench().programs, options);
         reference->reserve(triangles);
-        const HostTree expected = reference->build(input, bench().queue).spelled_out();
-        ASSERT_EQ(broken_promise(expected, mesh.points, mesh.faces), "");
+        const HostTree expected = reference->build(input, bench().queue).to_host_tree();
+        ASSERT_EQ(invariant_violation(expected, mesh.points, mesh.faces), "");
         for (const MakeBuilder make : makers) {
             const auto builder = make(bench().programs, options);
             SCOPED_TRACE(std::string(builder->card().name) + ", " + std::to_string(triangles) +
@@ -83,9 +83,9 @@ inline void expect_the_trees_of(MakeBuilder make_reference, std::span<const Make
             ASSERT_EQ(builder->footprint(triangles), builder->reserved());
             const Tree& tree = builder->build(input, bench().queue);
             ASSERT_EQ(tree.node_count(), 2 * triangles - 1);
-            ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected));
+            ASSERT_EQ(tree_hash(tree.to_host_tree()), tree_hash(expected));
             builder->build(input, bench().queue, Start::from_sorted_leaves);
-            ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected)) << "the second time";
+            ASSERT_EQ(tree_hash(tree.to_host_tree()), tree_hash(expected)) << "the second time";
             bench().queue.finish();
         }
     }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "baselines/baselines.h"
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "scenes/catalog.h"
 #include "tests/builders/stage_testing.h"
 
@@ -26,9 +26,9 @@ inline HostTree tree_over(MakeBuilder make, const Mesh& mesh)
     const auto builder = make(bench().programs, {});
     const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
     builder->reserve(mesh.faces.size());
-    const HostTree tree = builder->build(input, bench().queue).spelled_out();
+    const HostTree tree = builder->build(input, bench().queue).to_host_tree();
     bench().queue.finish();
-    EXPECT_EQ(broken_promise(tree, mesh.points, mesh.faces), "") << builder->card().name;
+    EXPECT_EQ(invariant_violation(tree, mesh.points, mesh.faces), "") << builder->card().name;
     return tree;
 }
 

@@ -4,7 +4,7 @@
 // rounded as the host rounds them, bit for bit.
 #include <gtest/gtest.h>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/error.h"
 #include "harness/judge/check.h"
 #include "harness/judge/hard_inputs.h"
@@ -25,7 +25,7 @@ std::string broken_over(Session& on, const BuilderChoice& choice, const Mesh& me
 {
     const Input input = upload(on.device(), on.queue(), mesh.points, mesh.faces);
     Oracle oracle(on, input);
-    return broken_contract(on, choice, input, oracle);
+    return contract_violation(on, choice, input, oracle);
 }
 
 void expect_contract(std::string_view builder, std::string_view boxes, unsigned group_size)
@@ -100,8 +100,8 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
     session().queue().finish();
     const Standing anew = many.standing(make, options);
     for (uint object = 0; object < many.objects.size(); ++object)
-        EXPECT_EQ(tree_hash(updated.device_tree().spelled_out_object(object)),
-                  tree_hash(anew.device_tree().spelled_out_object(object)))
+        EXPECT_EQ(tree_hash(updated.device_tree().object_to_host_tree(object)),
+                  tree_hash(anew.device_tree().object_to_host_tree(object)))
             << "object " << object;
 }
 

@@ -18,7 +18,7 @@ std::string broken_over(const BuilderChoice& choice, const Mesh& mesh, bool* ref
     Oracle oracle(session(), input);
     EXPECT_EQ(session().builder(choice).card().name, choice.name);
     bool did_refuse = false;
-    const std::string wrong = broken_contract(session(), choice, input, oracle, &did_refuse);
+    const std::string wrong = contract_violation(session(), choice, input, oracle, &did_refuse);
     if (refused != nullptr)
         *refused = did_refuse;
     return did_refuse && refused == nullptr ? "refused" : wrong;
@@ -38,7 +38,7 @@ TEST_P(BuilderContract, IsKeptAtEveryTellingSize)
     const auto& [entry, input] = GetParam();
     if (entry.make == nullptr)
         GTEST_SKIP() << entry.absent;
-    for (const std::size_t size : telling_sizes()) {
+    for (const std::size_t size : critical_sizes()) {
         bool refused = false;
         EXPECT_EQ(broken_over(named(entry.name), input.make(size), &refused), "")
             << size << " triangles, " << input.name;
@@ -131,7 +131,7 @@ TEST(ImplicitBuilders, LineUpLeavesInTheirFirstLaunchUnlessTheyRoundThem)
                 choice.sorted_leaves = true;
                 choice.boxes = boxes;
                 bool refused = false;
-                EXPECT_EQ(broken_contract(session(), choice, input, oracle, &refused), "");
+                EXPECT_EQ(contract_violation(session(), choice, input, oracle, &refused), "");
                 EXPECT_FALSE(refused);
                 Builder& builder = session().builder(choice);
                 builder.reserve(mesh.faces.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Host threads give the same results as kernels, object by object, in trees of one subtree and of several.
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
@@ -20,7 +20,7 @@ protected:
             many.standing(find_builder(name).make, {.sorted_leaves = sorted_leaves});
         std::vector<std::uint64_t> hashes;
         for (uint k = 0; k < forest.device_tree().objects.size(); ++k)
-            hashes.push_back(tree_hash(forest.device_tree().spelled_out_object(k)));
+            hashes.push_back(tree_hash(forest.device_tree().object_to_host_tree(k)));
         return hashes;
     }
 };

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "builders/device_tree.h"
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
@@ -69,7 +69,7 @@ protected:
         const auto& forest = dynamic_cast<const DeviceTree&>(tree);
         std::vector<HostTree> trees;
         for (uint k = 0; k < forest.objects.size(); ++k)
-            trees.push_back(forest.spelled_out_object(k));
+            trees.push_back(forest.object_to_host_tree(k));
         return trees;
     }
 

@@ -55,16 +55,16 @@ protected:
     }
 
     /// What the frames of a mesh are compared with: pairs by the oracle, contacts by one device; at rank 0 only.
-    struct Right {
+    struct Expected {
         PairList pairs, contacts;
     };
 
-    static Right right(const Mesh& mesh, bool keep_adjacent)
+    static Expected expected(const Mesh& mesh, bool keep_adjacent)
     {
         if (ranks->rank() != 0)
             return {};
         const WantedPairs wanted(mesh.faces, keep_adjacent, {}, Among::all);
-        Right all{swept_pairs(face_boxes(mesh.points, mesh.faces), wanted), {}};
+        Expected all{swept_pairs(face_boxes(mesh.points, mesh.faces), wanted), {}};
         const Input input = upload(*device, *queue, mesh.points, mesh.faces);
         DevicePairs pairs = room_for_pairs(*device, std::max<std::size_t>(1, all.pairs.size()));
         copy_pairs(all.pairs.pairs(), pairs, *queue);
@@ -79,7 +79,7 @@ protected:
     /// Distributes the mesh, which every rank makes and the last one deals out, and compares a frame of each pipeline with the oracle's.
     static void hold_to_oracle(const Mesh& mesh, const std::string& name)
     {
-        const Right wanted[] = {right(mesh, false), right(mesh, true)};
+        const Expected wanted[] = {expected(mesh, false), expected(mesh, true)};
         const uint dealer = ranks->count() - 1;
         for (const PartitionBy by : {PartitionBy::rcb, PartitionBy::curve}) {
             Share share = dealt(mesh.points, mesh.faces, dealer, *ranks);
@@ -87,9 +87,9 @@ protected:
             share =
                 moved(share, partitioned({centres, share.ids}, by, ranks->count(), *ranks), *ranks);
             for (const Pipeline& pipeline : pipelines())
-                hold_frame(wanted[pipeline.collider.keep_adjacent ? 1 : 0], share, pipeline,
-                           name + ", " + std::string(partition_names[static_cast<int>(by)]) + ", " +
-                               pipeline.builder.name);
+                expect_frame(wanted[pipeline.collider.keep_adjacent ? 1 : 0], share, pipeline,
+                             name + ", " + std::string(partition_names[static_cast<int>(by)]) +
+                                 ", " + pipeline.builder.name);
         }
     }
 
@@ -103,8 +103,8 @@ protected:
         return PairList(std::move(all));
     }
 
-    static void hold_frame(const Right& right, const Share& share, const Pipeline& pipeline,
-                           const std::string& name)
+    static void expect_frame(const Expected& expected, const Share& share, const Pipeline& pipeline,
+                             const std::string& name)
     {
         const auto builder = make_builder(pipeline.builder, *programs);
         const auto collider = make_collider(pipeline.collider, *programs);
@@ -121,8 +121,8 @@ protected:
         if (ranks->rank() != 0)
             return;
         EXPECT_EQ(pairs.surplus() + contacts.surplus(), 0u) << name;
-        EXPECT_TRUE(pairs == right.pairs) << name;
-        EXPECT_TRUE(contacts == right.contacts) << name;
+        EXPECT_TRUE(pairs == expected.pairs) << name;
+        EXPECT_TRUE(contacts == expected.contacts) << name;
     }
 
     static Mesh scene(const std::string& name)
@@ -200,8 +200,8 @@ TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
         to.push_back((id < faces ? 0u : 1u) % ranks->count());
     share = moved(share, to, *ranks);
     const Pipeline pipeline = pipelines().front();
-    hold_frame(right(mesh, pipeline.collider.keep_adjacent), share, pipeline,
-               "a domain in another");
+    expect_frame(expected(mesh, pipeline.collider.keep_adjacent), share, pipeline,
+                 "a domain in another");
 }
 
 TEST_F(Frames, AreJudgedByListsOrByFactsAlone)

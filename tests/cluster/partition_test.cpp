@@ -48,7 +48,7 @@ std::vector<uint> parts_of(const Cloud& cloud, PartitionBy by, uint parts, uint 
                 ids.push_back(k);
                 weights.push_back(cloud.weights[k]);
             }
-        Placed placed{centres, ids};
+        PlacedTriangles placed{centres, ids};
         if (weighted)
             placed.weights = weights;
         const std::vector<uint> own = partitioned(placed, by, parts, ranks);

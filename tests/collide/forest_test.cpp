@@ -34,7 +34,7 @@ TEST_P(Objects, HaveEachATreeOverTheirOwnTriangles)
     std::size_t nodes = 0;
     for (uint k = 0; k < many.objects.size(); ++k) {
         SCOPED_TRACE("object " + std::to_string(k));
-        const HostTree tree = forest.spelled_out_object(k);
+        const HostTree tree = forest.object_to_host_tree(k);
         nodes += tree.nodes.size();
         std::vector<int> seen;
         for (const HostTree::Node& node : tree.nodes) {
@@ -71,8 +71,8 @@ TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
         const Mesh alone{many.mesh.points,
                          {many.mesh.faces.begin() + range.first,
                           many.mesh.faces.begin() + range.first + range.count}};
-        const HostTree expected = Standing(alone, builder().make, options()).tree->spelled_out();
-        const HostTree found = forest_of(standing).spelled_out_object(k);
+        const HostTree expected = Standing(alone, builder().make, options()).tree->to_host_tree();
+        const HostTree found = forest_of(standing).object_to_host_tree(k);
         ASSERT_EQ(found.nodes.size(), expected.nodes.size());
         for (std::size_t i = 0; i < found.nodes.size(); ++i) {
             EXPECT_TRUE(same_bits(found.nodes[i].box, expected.nodes[i].box));

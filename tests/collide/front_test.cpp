@@ -167,7 +167,7 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
         input.device_points.upload(session().queue().cl(), points);
         for (Pipeline* one : {&tracking, &walking}) {
             one->begin_frame({});
-            one->settle(input);
+            one->prepare(input);
         }
         for (int repeat = 0; repeat < 3; ++repeat)
             for (Pipeline* one : {&walking, &tracking}) {

@@ -35,8 +35,8 @@ TEST_P(NearPipeline, FindsWhatIsFoundWithoutTheRule)
             const Input input = uploaded(one.many);
             Pipeline with(session(), GetParam(), between(name), input);
             Pipeline without(session(), GetParam(), between(name, skip_near), input);
-            with.settle(input);
-            without.settle(input);
+            with.prepare(input);
+            without.prepare(input);
             const PairList expected = expected_pairs(one.many, Among::between_objects, false);
             EXPECT_EQ(PairList(without.pairs()), expected);
             EXPECT_FALSE(without.counters().contains("entered_count"));
@@ -87,7 +87,7 @@ public:
         input_.device_points.upload(session().queue().cl(), points_);
         const std::vector<Motion> motions(2, motion);
         pipeline_.begin_frame(motions);
-        pipeline_.settle(input_);
+        pipeline_.prepare(input_);
         stages_ = pipeline_.once(input_);
         EXPECT_EQ(PairList(pipeline_.pairs()),
                   touching_pairs(points_, many_.mesh.faces, false, many_.objects,
@@ -178,7 +178,7 @@ TEST(NearRule, IsOnlyForPairsBetweenObjects)
         ColliderChoice choice = between("leaf");
         choice.among = among;
         Pipeline pipeline(session(), {.name = "oibvh-multi"}, choice, input);
-        pipeline.settle(input);
+        pipeline.prepare(input);
         EXPECT_FALSE(pipeline.counters().contains("entered_count"));
         EXPECT_EQ(PairList(pipeline.pairs()), expected_pairs(many, among, false));
     }
@@ -190,7 +190,7 @@ TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
     std::vector<Point> points = many.mesh.points;
     Input input = uploaded(many);
     Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), input);
-    pipeline.settle(input);
+    pipeline.prepare(input);
     points.back().x = -100;  // its object's box now contains the other object
     input.device_points.upload(session().queue().cl(), points);
     EXPECT_THROW(pipeline.once(input), Unavailable);

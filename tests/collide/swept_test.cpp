@@ -69,7 +69,7 @@ PairList pairs_by(const BuilderChoice& builder, const ColliderChoice& collider, 
 {
     Pipeline pipeline(session(), builder, collider, input);
     pipeline.begin_frame({});
-    pipeline.settle(input);
+    pipeline.prepare(input);
     return PairList(pipeline.pairs());
 }
 
@@ -200,7 +200,7 @@ TEST(SweptBoxes, OfAllBuildersAreThoseOfTheReferenceOrAreRefused)
             continue;
         }
         session().build_once(*builder, input, Start::from_triangles, &tree);
-        for (const HostTree::Node& node : tree->spelled_out().nodes)
+        for (const HostTree::Node& node : tree->to_host_tree().nodes)
             if (node.primitive != HostTree::none) {
                 const Aabb right =
                     leaf_box(input, edges.faces[static_cast<std::size_t>(node.primitive)]);

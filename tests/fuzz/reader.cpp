@@ -5,7 +5,7 @@
 #include <fstream>
 #include <functional>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/error.h"
 #include "harness/choice/experiment.h"
 #include "harness/commands/command.h"
@@ -153,7 +153,7 @@ void make_scene(FileMesh file)
     const std::vector<Face> faces(4, Face{0, 1, 2});
     tried([&] {
         const HostTree tree = outside::tree_of(nodes, entries, points, faces);
-        first_breach(tree, points, faces);
+        first_violation(tree, points, faces);
     });
 }
 

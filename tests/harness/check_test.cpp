@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 
 namespace bvhbench {
 namespace {

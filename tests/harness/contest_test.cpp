@@ -30,28 +30,28 @@ Cell planned(const char* builder, const char* order, const char* collider)
 TEST(Contest, WhatTakesLongerThanTheBestInStagesThatAreKnownIsNotRun)
 {
     Contest contest(Race::whole);
-    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    contest.compare(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
     EXPECT_EQ(contest.why_not(planned("oibvh-multi", "kd", "group")), "");
-    contest.look(cell("oibvh-multi", "kd", "group", 400, 20, 30));
+    contest.compare(cell("oibvh-multi", "kd", "group", 400, 20, 30));
     EXPECT_NE(contest.why_not(planned("oibvh-multi", "kd", "leaf")), "");
     EXPECT_NE(contest.why_not(planned("oibvh-single", "kd", "leaf")), "");
     // A radix tree has other stages, so nothing is known of it.
     EXPECT_EQ(contest.why_not(planned("karras", "kd", "leaf")), "");
     // Equal trees are queried alike.
-    contest.look(cell("oibvh-multi", "morton30", "leaf", 40, 20, 160));
+    contest.compare(cell("oibvh-multi", "morton30", "leaf", 40, 20, 160));
     EXPECT_NE(contest.why_not(planned("oibvh-single", "morton30", "leaf")), "");
     EXPECT_EQ(contest.why_not(planned("oibvh-single", "morton30", "group")), "");
     // Along another order a query counts a third.
     EXPECT_EQ(contest.why_not(planned("oibvh-single", "hilbert30", "leaf")), "");
-    contest.look(cell("oibvh-multi", "morton30", "bvtt", 40, 20, 460));
+    contest.compare(cell("oibvh-multi", "morton30", "bvtt", 40, 20, 460));
     EXPECT_NE(contest.why_not(planned("oibvh-single", "hilbert30", "bvtt")), "");
 }
 
 TEST(Contest, OnlyEqualWorkTells)
 {
     Contest contest(Race::whole);
-    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
-    contest.look(cell("oibvh-multi", "morton30", "leaf", 40, 900, 900));
+    contest.compare(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    contest.compare(cell("oibvh-multi", "morton30", "leaf", 40, 900, 900));
     Cell other = planned("oibvh-multi", "morton30", "leaf");
     EXPECT_NE(contest.why_not(other), "");
     other.builder.items = 4;  // its hierarchy may be faster, and it queries a tree of its own
@@ -63,23 +63,23 @@ TEST(Contest, OnlyEqualWorkTells)
 TEST(Contest, AFrameIsComparedWithItself)
 {
     Contest contest(Race::whole);
-    contest.look(cell("oibvh-multi", "morton30", "group", 4, 2, 4));
+    contest.compare(cell("oibvh-multi", "morton30", "group", 4, 2, 4));
     contest.end_frame(std::vector{cell("oibvh-multi", "morton30", "group", 4, 2, 4)});
-    EXPECT_EQ(contest.look(cell("oibvh-multi", "morton30", "group", 400, 200, 400)),
+    EXPECT_EQ(contest.compare(cell("oibvh-multi", "morton30", "group", 400, 200, 400)),
               Contest::Place::in_the_race);
 }
 
 TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
 {
     Contest contest(Race::whole);
-    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    contest.compare(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
     const Cell slow = cell("karras", "morton30", "group", 40, 220, 60);
     const std::vector<StageTime> quick = {{"broad", 60, 60, 0, 1}, {"hierarchy", 30, 30, 0, 1}};
-    EXPECT_EQ(contest.look(slow, quick), Contest::Place::slow_once);
-    EXPECT_EQ(contest.look(slow, slow.samples[0].stages), Contest::Place::far_behind);
-    EXPECT_EQ(contest.look(slow), Contest::Place::far_behind);
+    EXPECT_EQ(contest.compare(slow, quick), Contest::Place::slow_once);
+    EXPECT_EQ(contest.compare(slow, slow.samples[0].stages), Contest::Place::far_behind);
+    EXPECT_EQ(contest.compare(slow), Contest::Place::far_behind);
     // Neither does a machine that is slower for a while: the best takes longer now, too.
-    EXPECT_EQ(contest.look(slow, {}, 1.1), Contest::Place::in_the_race);
+    EXPECT_EQ(contest.compare(slow, {}, 1.1), Contest::Place::in_the_race);
     // What is known of a stage is the least of all runs.
     EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "leaf")), "");
 }
@@ -89,11 +89,11 @@ TEST(Contest, WrongCellsAndThoseOfNoRaceTellNothing)
     Contest contest(Race::whole), none(Race::none);
     Cell wrong = cell("oibvh-multi", "morton30", "group", 1, 1, 1);
     wrong.check.verdict = Check::Verdict::differs;
-    contest.look(wrong);
+    contest.compare(wrong);
     const Cell slow = cell("oibvh-multi", "morton30", "leaf", 900, 900, 900);
-    EXPECT_EQ(contest.look(slow), Contest::Place::in_the_race);
+    EXPECT_EQ(contest.compare(slow), Contest::Place::in_the_race);
     for (Contest* one : {&contest, &none}) {
-        one->look(cell("karras", "morton30", "leaf", 1, 1, 1));
+        one->compare(cell("karras", "morton30", "leaf", 1, 1, 1));
         EXPECT_EQ(one->why_not(slow).empty(), one == &none);
     }
 }
@@ -101,12 +101,12 @@ TEST(Contest, WrongCellsAndThoseOfNoRaceTellNothing)
 TEST(Contest, ARaceForQueriesCountsQueriesOnly)
 {
     Contest contest(Race::query);
-    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
-    contest.look(cell("oibvh-multi", "kd", "group", 4000, 20, 30));
+    contest.compare(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    contest.compare(cell("oibvh-multi", "kd", "group", 4000, 20, 30));
     EXPECT_EQ(contest.why_not(planned("oibvh-single", "kd", "group")), "");
-    EXPECT_EQ(contest.look(cell("oibvh-multi", "kd", "leaf", 4000, 20, 90)),
+    EXPECT_EQ(contest.compare(cell("oibvh-multi", "kd", "leaf", 4000, 20, 90)),
               Contest::Place::in_the_race);
-    EXPECT_EQ(contest.look(cell("oibvh-multi", "kd", "leaf", 40, 20, 91)),
+    EXPECT_EQ(contest.compare(cell("oibvh-multi", "kd", "leaf", 40, 20, 91)),
               Contest::Place::far_behind);
 }
 
@@ -132,8 +132,8 @@ TEST(Contest, OfMemoryNothingIsKnownBeforeACellIsRun)
     Cell one = cell("oibvh-multi", "kd", "group", 4000, 20, 30);
     one.counters["memory_bytes"] = 64;
     EXPECT_EQ(bytes_held(one), 64);
-    contest.look(cell("oibvh-multi", "morton30", "group", 1, 1, 1));
-    EXPECT_EQ(contest.look(one), Contest::Place::in_the_race);
+    contest.compare(cell("oibvh-multi", "morton30", "group", 1, 1, 1));
+    EXPECT_EQ(contest.compare(one), Contest::Place::in_the_race);
     EXPECT_EQ(contest.why_not(planned("oibvh-single", "kd", "group")), "");
     Cell other = one;
     other.counters = {{"tree_bytes", 100.0}, {"scratch_bytes", 40.0}};

@@ -26,7 +26,7 @@ std::vector<Counters> run_frames(const Scene& scene, const BuilderChoice& builde
         input.device_points.upload(session().queue().cl(), input.points);
         pipeline.begin_frame(frame == 0 ? std::vector<Motion>{}
                                         : object_motions(scene, frame - 1, frame));
-        pipeline.settle(input);
+        pipeline.prepare(input);
         all.push_back(pipeline.counters());
         const PairList expected = touching_pairs(input.points, input.faces, collider.keep_adjacent,
                                                  input.objects, collider.among);
@@ -175,7 +175,7 @@ TEST(OneTree, GivesTheNarrowPhaseTheTrueFaces)
                            .trees = trees},
                           input);
         pipeline.begin_frame({});
-        pipeline.settle(input);
+        pipeline.prepare(input);
         return PairList(pipeline.contacts());
     };
     const PairList expected = contacts_of(TreeOver::object);

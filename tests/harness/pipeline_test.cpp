@@ -32,7 +32,7 @@ public:
         input_.points = scene_.frames[frame];
         input_.device_points.upload(session().queue().cl(), input_.points);
         pipeline_->begin_frame(motions);
-        pipeline_->settle(input_);
+        pipeline_->prepare(input_);
         const std::map<std::string, double> counters = pipeline_->counters();
         for (int sample = 0; sample < 2; ++sample) {
             pipeline_->once(input_);
@@ -110,7 +110,7 @@ TEST(Transfers, AreOfPipelinesThatReadOrWriteTheDevice)
     const auto transfers_of = [&](const ColliderChoice& collider) {
         Pipeline pipeline(session(), {.name = "oibvh-multi"}, collider, input);
         pipeline.begin_frame({});
-        pipeline.settle(input);
+        pipeline.prepare(input);
         const std::vector<Pair> found = pipeline.pairs();
         const std::map<std::string, double> transfers = pipeline.transfers(input);
         EXPECT_EQ(pipeline.pairs(), found);
@@ -135,7 +135,7 @@ Check verdict_on(const char* scene_name, const ColliderChoice& collider, bool de
     Input input = upload_frame(session(), scene, 0);
     Pipeline pipeline(session(), {.name = "karras"}, collider, input);
     pipeline.begin_frame({});
-    pipeline.settle(input);
+    pipeline.prepare(input);
     if (device_moves)
         input.device_points.upload(session().queue().cl(), scene.frames[1]);
     if (host_moves)

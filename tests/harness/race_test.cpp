@@ -12,7 +12,7 @@ namespace bvhbench {
 namespace {
 
 /// Reports the listed times in order, then the last one for all later samples.
-struct Listed {
+struct ListedTimes {
     std::vector<std::int64_t> times;
     std::size_t next = 0;
 
@@ -26,10 +26,10 @@ struct Listed {
 };
 
 /// Samples cells with the listed times, whole times being one and a half times as long, in a race.
-std::vector<Taken> raced(std::vector<Listed> cells, SamplingRules rules = {},
-                         std::vector<double> bytes = {})
+std::vector<CellSamples> raced(std::vector<ListedTimes> cells, SamplingRules rules = {},
+                               std::vector<double> bytes = {})
 {
-    std::vector<Timed> timed;
+    std::vector<CellToSample> timed;
     for (std::size_t i = 0; i < cells.size(); ++i)
         timed.push_back({"listed", std::ref(cells[i]), {}, bytes.empty() ? 0 : bytes[i]});
     if (rules.race == Race::none)
@@ -71,9 +71,9 @@ TEST(Race, OneFarBehindHasOneSample)
 
 TEST(Race, EarlierSamplesCountButDoNotDecide)
 {
-    Listed fast{{1000}}, slow{{4000}};
-    std::vector<Timed> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
-    for (Timed& cell : cells)
+    ListedTimes fast{{1000}}, slow{{4000}};
+    std::vector<CellToSample> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
+    for (CellToSample& cell : cells)
         cell.earlier = {{7, cell.once()}};
     int order = 0;
     const auto taken =
@@ -84,14 +84,14 @@ TEST(Race, EarlierSamplesCountButDoNotDecide)
     EXPECT_EQ(taken[1].samples[0].order, 7);
     EXPECT_EQ(taken[0].samples.size(), 5u);
     EXPECT_EQ(fast.next, 1u + 3 + 4);
-    Listed again{{1000}}, once_fast{{2000, 4000}};
+    ListedTimes again{{1000}}, once_fast{{2000, 4000}};
     cells = {{"fast", std::ref(again), {{7, again()}}}, {"other", std::ref(once_fast), {}}};
     cells[1].earlier = {{8, once_fast()}};
     const auto longer =
         take_samples(cells, {.samples = 5, .warm_up = 0, .rules = {.race = Race::whole}}, order);
     EXPECT_EQ(longer[1].samples.size(), 1 + fewest_compared);
-    Listed one{{1000}};
-    const std::vector<Timed> done = {{"one", std::ref(one), {{7, one()}}}};
+    ListedTimes one{{1000}};
+    const std::vector<CellToSample> done = {{"one", std::ref(one), {{7, one()}}}};
     EXPECT_EQ(take_samples(done, {.samples = 1, .warm_up = 0}, order)[0].samples.size(), 1u);
 }
 
@@ -114,7 +114,7 @@ TEST(Race, ThoseThatOverlapGoOnToTheMostAllowed)
     const auto taken = raced({{{1000, 1100, 1050, 1000, 1100, 1050, 1000, 1100}},
                               {{1050, 1000, 1100, 1050, 1000, 1100, 1050, 1000}}},
                              {.until = 0.01, .min_samples = 4, .max_samples = 8});
-    for (const Taken& cell : taken) {
+    for (const CellSamples& cell : taken) {
         EXPECT_EQ(cell.stopped, Stopped::most);
         EXPECT_EQ(cell.samples.size(), 8u);
     }
@@ -125,8 +125,8 @@ TEST(Race, ThoseThatOverlapGoOnToTheMostAllowed)
 
 TEST(Race, WithoutARaceNothingIsBeaten)
 {
-    Listed fast{{1000}}, slow{{9000}};
-    const std::vector<Timed> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
+    ListedTimes fast{{1000}}, slow{{9000}};
+    const std::vector<CellToSample> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
     int order = 0;
     EXPECT_EQ(take_samples(cells, {.samples = 5, .warm_up = 0}, order)[1].samples.size(), 5u);
 }

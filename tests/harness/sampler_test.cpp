@@ -26,7 +26,7 @@ struct FakeBuild {
 };
 
 /// Reports the listed times in order, then the last one for all later samples.
-struct Listed {
+struct ListedTimes {
     std::vector<std::int64_t> times = {1000};
     std::size_t next = 0;
 
@@ -40,15 +40,16 @@ struct Listed {
 using Calibrate = std::function<std::int64_t()>;
 
 /// Samples one cell with the listed times.
-Taken taken(Listed listed, const SamplingPlan& plan, const Calibrate& calibrate = {})
+CellSamples taken(ListedTimes listed, const SamplingPlan& plan, const Calibrate& calibrate = {})
 {
     int order = 0;
-    return take_samples(std::vector<Timed>{{"listed", std::ref(listed)}}, plan, order, calibrate)
+    return take_samples(std::vector<CellToSample>{{"listed", std::ref(listed)}}, plan, order,
+                        calibrate)
         .at(0);
 }
 
 /// Samples one cell with the listed times under `rules`.
-Taken taken_until(std::vector<std::int64_t> times, SamplingRules rules)
+CellSamples taken_until(std::vector<std::int64_t> times, SamplingRules rules)
 {
     return taken({std::move(times)}, {.samples = 5, .warm_up = 0, .rules = rules});
 }
@@ -66,7 +67,7 @@ TEST(Sampler, KeepsEverySampleAfterTheWarmUpInOrder)
 {
     FakeBuild build;
     int order = 0;
-    const auto all = take_samples(std::vector<Timed>{{"fake", std::ref(build)}},
+    const auto all = take_samples(std::vector<CellToSample>{{"fake", std::ref(build)}},
                                   {.samples = 5, .warm_up = 2}, order);
     std::vector<std::int64_t> times;
     for (const Sample& sample : all[0].samples)
@@ -79,12 +80,14 @@ TEST(Sampler, KeepsEverySampleAfterTheWarmUpInOrder)
 TEST(Sampler, InterleavesCellsAndNumbersTheSamplesOfTheWholeRun)
 {
     FakeBuild first, second;
-    const std::vector<Timed> cells = {{"first", std::ref(first)}, {"second", std::ref(second)}};
+    const std::vector<CellToSample> cells = {{"first", std::ref(first)},
+                                             {"second", std::ref(second)}};
     int order = 100;
-    const std::vector<Taken> taken = take_samples(cells, {.samples = 50, .warm_up = 0}, order);
+    const std::vector<CellSamples> taken =
+        take_samples(cells, {.samples = 50, .warm_up = 0}, order);
     EXPECT_EQ(order, 200);
     std::set<int> orders;
-    for (const Taken& cell : taken)
+    for (const CellSamples& cell : taken)
         for (const Sample& sample : cell.samples)
             orders.insert(sample.order);
     EXPECT_EQ(orders.size(), 100u);
@@ -98,11 +101,12 @@ TEST(Sampler, GoesOnWithTheOthersWhenOneFailsAndPrintsNothing)
 {
     FakeBuild good, bad;
     bad.fails_at = 2;
-    const std::vector<Timed> cells = {{"bad", std::ref(bad)}, {"good", std::ref(good)}};
+    const std::vector<CellToSample> cells = {{"bad", std::ref(bad)}, {"good", std::ref(good)}};
     int order = 0;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    const std::vector<Taken> taken = take_samples(cells, {.samples = 10, .warm_up = 0}, order);
+    const std::vector<CellSamples> taken =
+        take_samples(cells, {.samples = 10, .warm_up = 0}, order);
     EXPECT_TRUE(take_samples({}, {.samples = 5, .warm_up = 0}, order).empty());
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -115,14 +119,15 @@ TEST(Sampler, GoesOnWithTheOthersWhenOneFailsAndPrintsNothing)
 TEST(Sampler, TakesEveryCellOnceInEachRound)
 {
     FakeBuild builds[3];
-    std::vector<Timed> cells;
+    std::vector<CellToSample> cells;
     for (FakeBuild& build : builds)
         cells.push_back({"fake", std::ref(build)});
     int order = 0;
-    const std::vector<Taken> taken = take_samples(cells, {.samples = 40, .warm_up = 0}, order);
+    const std::vector<CellSamples> taken =
+        take_samples(cells, {.samples = 40, .warm_up = 0}, order);
     std::set<int> places;  // of the first cell in each round
     for (int round = 0; round < 40; ++round)
-        for (const Taken& cell : taken) {
+        for (const CellSamples& cell : taken) {
             EXPECT_EQ(cell.samples[round].order / 3, round);
             places.insert(taken[0].samples[round].order % 3);
         }
@@ -131,7 +136,7 @@ TEST(Sampler, TakesEveryCellOnceInEachRound)
 
 TEST(Sampler, StopsAtTheTargetAndNotBeforeTheLeastNumber)
 {
-    const Taken steady = taken_until({1000}, {.until = 0.02, .min_samples = 12});
+    const CellSamples steady = taken_until({1000}, {.until = 0.02, .min_samples = 12});
     EXPECT_EQ(steady.stopped, Stopped::steady);
     EXPECT_EQ(steady.samples.size(), 12u);
     // Twenty scattered samples, then steady ones: the quartiles meet when three quarters of all are steady.
@@ -139,7 +144,7 @@ TEST(Sampler, StopsAtTheTargetAndNotBeforeTheLeastNumber)
     for (std::size_t i = 0; i < calming.size(); ++i)
         calming[i] = i % 2 == 0 ? 500 : 2000;
     calming.push_back(1000);
-    const Taken later = taken_until(calming, {.until = 0.02, .min_samples = 12});
+    const CellSamples later = taken_until(calming, {.until = 0.02, .min_samples = 12});
     EXPECT_EQ(later.stopped, Stopped::steady);
     EXPECT_GT(later.samples.size(), 30u);
     EXPECT_LT(later.samples.size(), 60u);
@@ -147,7 +152,7 @@ TEST(Sampler, StopsAtTheTargetAndNotBeforeTheLeastNumber)
 
 TEST(Sampler, SaysHonestlyThatNoiseWillNotGoDown)
 {
-    const Taken noisy = taken_until(spread_by(400, 2000), {.until = 0.02});
+    const CellSamples noisy = taken_until(spread_by(400, 2000), {.until = 0.02});
     EXPECT_EQ(noisy.stopped, Stopped::noisy);
     EXPECT_GE(noisy.samples.size(), 64u);
     EXPECT_LT(noisy.samples.size(), 200u);
@@ -155,10 +160,11 @@ TEST(Sampler, SaysHonestlyThatNoiseWillNotGoDown)
 
 TEST(Sampler, StopsAtTheMostAllowedAndWhenTheTimeIsOver)
 {
-    const Taken most = taken_until(spread_by(400, 2000), {.until = 0.02, .max_samples = 30});
+    const CellSamples most = taken_until(spread_by(400, 2000), {.until = 0.02, .max_samples = 30});
     EXPECT_EQ(most.stopped, Stopped::most);
     EXPECT_EQ(most.samples.size(), 30u);
-    const Taken budget = taken_until(spread_by(400, 2000), {.until = 0.02, .time_budget_s = 0});
+    const CellSamples budget =
+        taken_until(spread_by(400, 2000), {.until = 0.02, .time_budget_s = 0});
     EXPECT_EQ(budget.stopped, Stopped::budget);
     EXPECT_EQ(budget.samples.size(), 1u);
     EXPECT_EQ(taken_until({1000}, {}).stopped, Stopped::number);
@@ -167,10 +173,11 @@ TEST(Sampler, StopsAtTheMostAllowedAndWhenTheTimeIsOver)
 
 TEST(Sampler, GoesOnWithThoseThatAreNotSteadyYet)
 {
-    Listed steady, wild{spread_by(400, 2000)};
-    const std::vector<Timed> cells = {{"steady", std::ref(steady)}, {"wild", std::ref(wild)}};
+    ListedTimes steady, wild{spread_by(400, 2000)};
+    const std::vector<CellToSample> cells = {{"steady", std::ref(steady)},
+                                             {"wild", std::ref(wild)}};
     int order = 0;
-    const std::vector<Taken> taken =
+    const std::vector<CellSamples> taken =
         take_samples(cells, {.warm_up = 2, .rules = {.until = 0.02, .min_samples = 10}}, order);
     EXPECT_EQ(taken[0].samples.size(), 10u);
     EXPECT_EQ(taken[1].stopped, Stopped::noisy);
@@ -180,8 +187,9 @@ TEST(Sampler, GoesOnWithThoseThatAreNotSteadyYet)
 TEST(Sampler, MarksSamplesBesideDriftAndKeepsThem)
 {
     int looks = 0;
-    const Taken marked = taken({}, {.samples = 100, .warm_up = 1, .rules = {.calibrate_every = 10}},
-                               [&]() -> std::int64_t { return ++looks == 5 ? 200 : 100; });
+    const CellSamples marked =
+        taken({}, {.samples = 100, .warm_up = 1, .rules = {.calibrate_every = 10}},
+              [&]() -> std::int64_t { return ++looks == 5 ? 200 : 100; });
     // Calibrations precede the samples 1, 11, 21, 31, 41, ...; the fifth precedes 41.
     ASSERT_EQ(marked.samples.size(), 100u);
     for (const Sample& sample : marked.samples) {
@@ -195,12 +203,12 @@ TEST(Sampler, DoesNotCountSamplesBesideDriftTowardsATarget)
 {
     int looks = 0;
     SamplingRules rules{.until = 0.02, .min_samples = 12, .calibrate_every = 4};
-    const Taken later = taken({}, {.warm_up = 0, .rules = rules},
-                              [&]() -> std::int64_t { return ++looks == 2 ? 300 : 100; });
+    const CellSamples later = taken({}, {.warm_up = 0, .rules = rules},
+                                    [&]() -> std::int64_t { return ++looks == 2 ? 300 : 100; });
     EXPECT_EQ(later.samples.size(), 16u);
     // Sampling must end even if the drift does not.
     rules = {.until = 0.02, .max_samples = 40, .calibrate_every = 4};
-    const Taken marked = taken({}, {.warm_up = 0, .rules = rules}, [&]() -> std::int64_t {
+    const CellSamples marked = taken({}, {.warm_up = 0, .rules = rules}, [&]() -> std::int64_t {
         ++looks;
         return std::int64_t{100} * looks * looks;
     });
@@ -212,7 +220,7 @@ TEST(Sampler, GoesOnWithoutACalibrationThatFailsAndMarksNothing)
 {
     for (const int fails_at : {1, 3}) {
         int looks = 0;
-        const Taken unmarked =
+        const CellSamples unmarked =
             taken({}, {.samples = 40, .warm_up = 0, .rules = {.calibrate_every = 10}},
                   [&]() -> std::int64_t {
                       if (++looks == fails_at)
@@ -246,8 +254,9 @@ TEST(Sampler, DropsAFewSamplesWithImpossibleTimes)
 {
     BadClocked seldom{20}, often{5};
     int order = 0;
-    const std::vector<Timed> cells = {{"seldom", std::ref(seldom)}, {"often", std::ref(often)}};
-    const std::vector<Taken> all = take_samples(cells, {.samples = 50, .warm_up = 1}, order);
+    const std::vector<CellToSample> cells = {{"seldom", std::ref(seldom)},
+                                             {"often", std::ref(often)}};
+    const std::vector<CellSamples> all = take_samples(cells, {.samples = 50, .warm_up = 1}, order);
     EXPECT_EQ(all[0].samples.size(), 50u);
     EXPECT_EQ(all[0].dropped, 2);
     EXPECT_EQ(all[0].stopped, Stopped::number);

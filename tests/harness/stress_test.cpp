@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
 #include "geometry/error.h"
@@ -170,18 +170,18 @@ TEST(StressFinder, NoticesAContactThatIsFalse)
 
 /// Returns the finding `ends` of a system that throws Error.
 template <class Error>
-Finding settled_end(bool may_refuse)
+Finding end_after(bool may_refuse)
 {
     static Session& session = *new Session(CommonOptions{});  // never destroyed: no driver at exit
-    return settled(session, may_refuse, []() -> Findings { throw Error("too large"); })
+    return findings_of(session, may_refuse, []() -> Findings { throw Error("too large"); })
         .at(Invariant::ends);
 }
 
 TEST(StressSettled, TellsARefusalFromAFailure)
 {
-    EXPECT_EQ(settled_end<Unavailable>(false), (Finding{broken, 1, 1, 0, "too large"}));
-    EXPECT_EQ(settled_end<Unavailable>(true), (Finding{refused, 1, 0, 0, "too large"}));
-    EXPECT_EQ(settled_end<BadUsage>(false), (Finding{refused, 1, 0, 0, "too large"}));
+    EXPECT_EQ(end_after<Unavailable>(false), (Finding{broken, 1, 1, 0, "too large"}));
+    EXPECT_EQ(end_after<Unavailable>(true), (Finding{refused, 1, 0, 0, "too large"}));
+    EXPECT_EQ(end_after<BadUsage>(false), (Finding{refused, 1, 0, 0, "too large"}));
 }
 
 TEST(StressVariants, AreTheSameScenesInOtherWords)

@@ -74,9 +74,9 @@ SearchResult searched(
                   {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true}, note);
 }
 
-const Tried& tried(const SearchResult& result, const Parameter& parameter, uint value)
+const TrialResult& tried(const SearchResult& result, const Parameter& parameter, uint value)
 {
-    for (const Tried& one : result.tries)
+    for (const TrialResult& one : result.tries)
         if (one.parameter == &parameter && one.value == value)
             return one;
     throw std::out_of_range("not tried");
@@ -91,11 +91,11 @@ TEST(Search, KeepsTheFastestValueOfEachParameter)
     EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
     EXPECT_EQ(result.best.value(items_parameter, true), 3u);
     EXPECT_EQ(result.kept.size(), 2u);
-    EXPECT_EQ(tried(result, keys_parameter, 8).verdict, Tried::Verdict::better);
+    EXPECT_EQ(tried(result, keys_parameter, 8).verdict, TrialResult::Verdict::better);
     EXPECT_NEAR(tried(result, keys_parameter, 8).ratio, 0.6, 0.01);
-    EXPECT_EQ(tried(result, keys_parameter, 2).verdict, Tried::Verdict::not_better)
+    EXPECT_EQ(tried(result, keys_parameter, 2).verdict, TrialResult::Verdict::not_better)
         << "but not the fastest";
-    EXPECT_EQ(tried(result, keys_parameter, 4).verdict, Tried::Verdict::current);
+    EXPECT_EQ(tried(result, keys_parameter, 4).verdict, TrialResult::Verdict::current);
     EXPECT_NEAR(result.start_ns, 1500, 20);
     EXPECT_NEAR(result.best_ns, 900, 20);
 }
@@ -107,7 +107,7 @@ TEST(Search, NeverChoosesAWrongAnswerHoweverFast)
     world.wrong = [](uint keys) { return keys == 16 ? "box 7 differs" : ""; };
     const SearchResult result = searched(world);
     EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
-    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::wrong);
+    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, TrialResult::Verdict::wrong);
     EXPECT_EQ(tried(result, keys_parameter, 16).median_ns, 0) << "a wrong answer has no time";
     EXPECT_NE(search_report(result).find("wrong: box 7 differs"), std::string::npos);
 }
@@ -120,7 +120,7 @@ TEST(Search, NeverChoosesWhatIsWrongOnlyAfterItWasTimed)
     world.wrong = [&](uint keys) { return keys == 16 && ++checks % 2 == 0 ? "a race" : ""; };
     const SearchResult result = searched(world);
     EXPECT_EQ(result.best.value(keys_parameter, true), 4u);
-    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::wrong);
+    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, TrialResult::Verdict::wrong);
 }
 
 TEST(Search, PassesOverWhatTheDeviceCannotDo)
@@ -133,7 +133,7 @@ TEST(Search, PassesOverWhatTheDeviceCannotDo)
     };
     const SearchResult result = searched(world);
     EXPECT_EQ(result.best.value(keys_parameter, true), 2u);
-    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::impossible);
+    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, TrialResult::Verdict::impossible);
     EXPECT_EQ(tried(result, keys_parameter, 16).detail, "needs 70000 bytes of local memory");
 }
 
@@ -154,7 +154,7 @@ TEST(Search, GivesUpWhatMakesTheWholeNoFaster)
     world.sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : 1000; };
     world.hierarchy_ns = [](uint keys, uint) { return keys == 8 ? 900 : 400; };
     const SearchResult result = searched(world);
-    EXPECT_EQ(tried(result, keys_parameter, 8).verdict, Tried::Verdict::better);
+    EXPECT_EQ(tried(result, keys_parameter, 8).verdict, TrialResult::Verdict::better);
     EXPECT_TRUE(result.kept.empty());
     EXPECT_FALSE(result.best.has(keys_parameter));
     EXPECT_NE(search_report(result).find("not faster, nothing is kept"), std::string::npos);
@@ -177,7 +177,7 @@ TEST(Search, StartsFromDefaultsAndLeavesOtherParametersAsTheyAre)
     start.set(keys_parameter, 16);
     start.set(aside_parameter, 3);
     const SearchResult result = searched({}, start);
-    EXPECT_EQ(tried(result, keys_parameter, 4).verdict, Tried::Verdict::current);
+    EXPECT_EQ(tried(result, keys_parameter, 4).verdict, TrialResult::Verdict::current);
     EXPECT_FALSE(result.best.has(keys_parameter));
     EXPECT_EQ(result.best.value(aside_parameter, true), 3u);
     EXPECT_THROW(tried(result, aside_parameter, 1), std::out_of_range) << "nobody asked for it";

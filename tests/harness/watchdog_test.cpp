@@ -61,8 +61,8 @@ TEST(Watchdog, NamesALimitOfAddressSpaceInstead)
 [[noreturn]] void tell_failure_of(void (*work)())
 {
     std::_Exit(supervised(0.2, [work] {
-        watchdog::go_on_with("a run");
-        const watchdog::Hand hand("a cell");
+        watchdog::resume_after_crash("a run");
+        const watchdog::CellScope scope("a cell");
         try {
             work();
         } catch (const Unavailable& error) {
@@ -75,17 +75,17 @@ TEST(Watchdog, NamesALimitOfAddressSpaceInstead)
 
 void ask_an_oracle_that_hangs()
 {
-    const Right right(1, "contacts", {}, [](OracleProgress&) -> Answer {
+    const Expected expected(1, "contacts", {}, [](OracleProgress&) -> Answer {
         for (;;)
             pause();
     });
-    right.list();
+    expected.list();
 }
 
 void crash_after_an_oracle()
 {
-    const Right right(1, "contacts", {}, [](OracleProgress&) { return Answer({}, {}); });
-    right.list();
+    const Expected expected(1, "contacts", {}, [](OracleProgress&) { return Answer({}, {}); });
+    expected.list();
     if (watchdog::given_up("a cell").empty())
         fault();
     throw Unavailable("");

@@ -3,8 +3,8 @@
 // The library's trees equal those of bvhbench's builders bit for bit, and its buffers have the documented layout.
 #include <cstring>
 
+#include "builders/host_tree.h"
 #include "builders/implicit/tree.h"
-#include "builders/spell_out.h"
 #include "oibvh/oibvh.h"
 #include "tests/builders/stage_testing.h"
 #include "tests/library/testing.h"
@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr std::size_t telling_sizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 1000};
+constexpr std::size_t critical_sizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 1000};
 
 template <class T, class U>
 bool same_bytes(const std::vector<T>& a, const std::vector<U>& b)
@@ -60,7 +60,7 @@ TEST_P(LibraryBuilder, IsTheProgramsTreeBitForBit)
         for (const bool sorted : {false, true}) {
             oibvh::Tree tree(device,
                              {.builder = GetParam(), .order = order, .sorted_leaves = sorted});
-            for (const std::size_t size : telling_sizes) {
+            for (const std::size_t size : critical_sizes) {
                 const LibraryMesh mesh = soup_mesh(size);
                 tree.build(mesh.on_host());
                 const Built built(mesh, make, {.order = order, .sorted_leaves = sorted});
@@ -146,13 +146,13 @@ TEST_F(Library, LevelsNodesAndIdsAreAllThereIsToKnow)
 {
     for (const bool sorted : {false, true}) {
         oibvh::Tree tree(device, {.order = "morton30", .sorted_leaves = sorted});
-        for (const std::size_t size : telling_sizes) {
+        for (const std::size_t size : critical_sizes) {
             const LibraryMesh mesh = soup_mesh(size);
             tree.build(mesh.on_host());
             const Built built(mesh, make_oibvh_multi, {.sorted_leaves = sorted});
             const oibvh::HostTree read = tree.read();
             EXPECT_EQ(tree_hash(told(read, tree.levels(), read.objects[0])),
-                      tree_hash(built.tree->spelled_out()))
+                      tree_hash(built.tree->to_host_tree()))
                 << size;
         }
     }

@@ -92,8 +92,8 @@ protected:
     }
 
     /// Runs a frame and compares it with that of one device.
-    static FrameCounts hold_frame(DistributedTree& tree, const LibraryMesh& mesh,
-                                  const ClusterOptions& options, const std::string& name)
+    static FrameCounts expect_frame(DistributedTree& tree, const LibraryMesh& mesh,
+                                    const ClusterOptions& options, const std::string& name)
     {
         const FrameCounts counts = tree.find_pairs();
         const std::vector<oibvh::Pair> own = tree.read_pairs(), pairs = tree.gather_pairs();
@@ -119,15 +119,15 @@ protected:
     }
 
     /// Distributes the mesh in several ways and compares a frame of each with that of one device.
-    static void hold_mesh(DistributedTree& tree, const LibraryMesh& mesh,
-                          const ClusterOptions& options, const std::string& name)
+    static void expect_mesh(DistributedTree& tree, const LibraryMesh& mesh,
+                            const ClusterOptions& options, const std::string& name)
     {
         const int last = tree.ranks() - 1;
         const LibraryMesh none;
         tree.distribute((tree.rank() == last ? mesh : none).on_host(), last);
-        hold_frame(tree, mesh, options, name + " of the last rank");
+        expect_frame(tree, mesh, options, name + " of the last rank");
         tree.distribute(scattered_part(mesh).view());
-        hold_frame(tree, mesh, options, name + " of all ranks");
+        expect_frame(tree, mesh, options, name + " of all ranks");
     }
 
     static std::unique_ptr<Caller> caller;
@@ -146,7 +146,7 @@ TEST_F(ClusterLibrary, HasThePairsOfATree)
                                          .contacts = true};
             DistributedTree tree(MPI_COMM_WORLD, caller->queue, options);
             for (const char* name : {"torus:3000", "soup:2000", "hairball:1000"})
-                hold_mesh(tree, scene_mesh(name), options, name);
+                expect_mesh(tree, scene_mesh(name), options, name);
             // Few triangles leave ranks empty.
             const LibraryMesh closed = scene_mesh("sphere:6"), soup = soup_mesh(9);
             for (const LibraryMesh& whole : {closed, soup})
@@ -154,7 +154,7 @@ TEST_F(ClusterLibrary, HasThePairsOfATree)
                      ++count) {
                     LibraryMesh mesh = whole;
                     mesh.faces.resize(count);
-                    hold_mesh(tree, mesh, options, std::to_string(count) + " triangles");
+                    expect_mesh(tree, mesh, options, std::to_string(count) + " triangles");
                 }
         }
 }
@@ -162,13 +162,13 @@ TEST_F(ClusterLibrary, HasThePairsOfATree)
 TEST_F(ClusterLibrary, HasThePairsOfATreeWithAnyBuilderAndCollider)
 {
     const LibraryMesh mesh = scene_mesh("torus:2000");
-    const auto hold = [&](const oibvh::Options& options) {
+    const auto expect_frames = [&](const oibvh::Options& options) {
         DistributedTree tree(MPI_COMM_WORLD, caller->queue, {.tree = options});
-        hold_mesh(tree, mesh, {.tree = options}, options.collider);
+        expect_mesh(tree, mesh, {.tree = options}, options.collider);
     };
     for (const char* collider : {"leaf", "group", "block", "bvtt"})
-        hold({.builder = "oibvh-multi", .order = "kd", .collider = collider});
-    hold({.sorted_leaves = false, .check_input = false});
+        expect_frames({.builder = "oibvh-multi", .order = "kd", .collider = collider});
+    expect_frames({.sorted_leaves = false, .check_input = false});
 }
 
 TEST_F(ClusterLibrary, HasThePairsOfATreeOnAnyQueue)
@@ -180,7 +180,7 @@ TEST_F(ClusterLibrary, HasThePairsOfATreeOnAnyQueue)
         const Caller other(kind);
         DistributedTree tree(MPI_COMM_WORLD, other.queue, {.contacts = true});
         tree.distribute(scattered_part(mesh).view());
-        hold_frame(tree, mesh, {.contacts = true}, std::to_string(kind));
+        expect_frame(tree, mesh, {.contacts = true}, std::to_string(kind));
     }
 }
 
@@ -215,12 +215,12 @@ TEST_F(ClusterLibrary, FollowsPointsAndCutsAnew)
         };
         for (const float share : {0.3f, 1.0f}) {
             move_to(pressed(share));
-            hold_frame(tree, pressed(share), options, "moved");
+            expect_frame(tree, pressed(share), options, "moved");
             EXPECT_EQ(tree.triangles(), kept);
         }
-        const FrameCounts uneven = hold_frame(tree, pressed(1), options, "again");
+        const FrameCounts uneven = expect_frame(tree, pressed(1), options, "again");
         const std::uint64_t changed = tree.rebalance();
-        const FrameCounts even = hold_frame(tree, pressed(1), options, "rebalanced");
+        const FrameCounts even = expect_frame(tree, pressed(1), options, "rebalanced");
         if (tree.ranks() > 1) {
             EXPECT_GT(uneven.imbalance, 1.1);
             EXPECT_LT(even.imbalance, uneven.imbalance);
@@ -228,7 +228,7 @@ TEST_F(ClusterLibrary, FollowsPointsAndCutsAnew)
             EXPECT_EQ(changed, sum_of_ranks(changed) / ranks->count());
         }
         move_to(first);
-        hold_frame(tree, first, options, "moved back");
+        expect_frame(tree, first, options, "moved back");
     }
 }
 
@@ -246,9 +246,9 @@ TEST_F(ClusterLibrary, TakesTheLowestRanksPointWhereSeveralPassAVertex)
     for (oibvh::Point& point : own.points)
         point.z += 100 * static_cast<float>(ranks->rank());
     tree.distribute(own.view());
-    hold_frame(tree, mesh, {}, "distributed");
+    expect_frame(tree, mesh, {}, "distributed");
     tree.update(own.points);
-    hold_frame(tree, mesh, {}, "updated");
+    expect_frame(tree, mesh, {}, "updated");
 }
 
 TEST_F(ClusterLibrary, LeavesTheCallersObjectsAlone)

@@ -194,7 +194,7 @@ TEST_F(ClusterLibraryRefuses, TooLittleMemoryOfOneRankOnAllRanks)
     packed.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     packed.faces.assign(1200, {0, 1, 2});
     const OwnTriangles more = scattered_part(packed);
-    const auto hold = [&](std::size_t limit, bool fails_in_frame) {
+    const auto expect_frames = [&](std::size_t limit, bool fails_in_frame) {
         ClusterOptions options;
         if (is_last())
             options.device.memory_limit = limit;
@@ -217,8 +217,8 @@ TEST_F(ClusterLibraryRefuses, TooLittleMemoryOfOneRankOnAllRanks)
             EXPECT_EQ(pairs, pairs_of_one(caller, mesh, true));
         }
     };
-    hold(all / 4, false);
-    hold(all + all / 4, true);
+    expect_frames(all / 4, false);
+    expect_frames(all + all / 4, true);
 }
 
 }  // namespace

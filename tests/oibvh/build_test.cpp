@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "baselines/baselines.h"
+#include "builders/host_tree.h"
 #include "builders/parameters.h"
-#include "builders/spell_out.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
 #include "tests/all_cases.h"
@@ -66,8 +66,8 @@ void expect_all_equal(std::vector<std::unique_ptr<Builder>>& builders, uint tria
     const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
     const auto reference = make_oibvh_reference(bench().programs, {});
     reference->reserve(triangles);
-    const HostTree expected = reference->build(input, bench().queue).spelled_out();
-    ASSERT_EQ(broken_promise(expected, mesh.points, mesh.faces), "");
+    const HostTree expected = reference->build(input, bench().queue).to_host_tree();
+    ASSERT_EQ(invariant_violation(expected, mesh.points, mesh.faces), "");
 
     for (std::size_t i = 0; i < builders.size(); ++i) {
         SCOPED_TRACE(std::to_string(triangles) + " triangles, way " + std::to_string(i));
@@ -75,9 +75,9 @@ void expect_all_equal(std::vector<std::unique_ptr<Builder>>& builders, uint tria
             builders[i]->reserve(triangles);
         ASSERT_EQ(builders[i]->footprint(triangles), builders[i]->reserved());
         const Tree& tree = builders[i]->build(input, bench().queue);
-        ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected));
+        ASSERT_EQ(tree_hash(tree.to_host_tree()), tree_hash(expected));
         builders[i]->build(input, bench().queue, Start::from_sorted_leaves);
-        ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected)) << "the second time";
+        ASSERT_EQ(tree_hash(tree.to_host_tree()), tree_hash(expected)) << "the second time";
         bench().queue.finish();
     }
 }
@@ -131,10 +131,10 @@ TEST(OiBuilders, GiveTheSameTreeAHundredTimes)
         const auto builder = way.make(bench().programs, way.options);
         builder->reserve(20000);
         const Tree& tree = builder->build(input, bench().queue);
-        const std::uint64_t first = tree_hash(tree.spelled_out());
+        const std::uint64_t first = tree_hash(tree.to_host_tree());
         for (int repeat = 0; repeat < 100; ++repeat) {
             builder->build(input, bench().queue, Start::from_sorted_leaves);
-            ASSERT_EQ(tree_hash(tree.spelled_out()), first);
+            ASSERT_EQ(tree_hash(tree.to_host_tree()), first);
         }
         bench().queue.finish();
     }

@@ -193,16 +193,19 @@ TEST(KaryLayoutOfTwo, IsTheBinaryLayoutUpToItsLastLeaf)
 
 class OiLayoutAt : public testing::TestWithParam<uint> {};
 
-TEST_P(OiLayoutAt, AgreesWithSixtyFourBitArithmetic) { EXPECT_EQ(broken_layout(GetParam()), ""); }
+TEST_P(OiLayoutAt, AgreesWithSixtyFourBitArithmetic)
+{
+    EXPECT_EQ(layout_violation(GetParam()), "");
+}
 
 TEST_P(OiLayoutAt, IsHeldToItsNumbers)
 {
     OiShape other = oi_shape(GetParam());
     other.virtual_leaves ^= 1u;  // an even number in place of an odd one, or the reverse
-    EXPECT_NE(broken_layout(GetParam(), other), "");
+    EXPECT_NE(layout_violation(GetParam(), other), "");
     other = oi_shape(GetParam());
     other.leaves -= 1;
-    EXPECT_NE(broken_layout(GetParam(), other), "");
+    EXPECT_NE(layout_violation(GetParam(), other), "");
 }
 
 // Sizes one below, at and one above powers of two, up to the last tree whose indices fit, and the meshes of Table 1.

@@ -3,7 +3,7 @@
 // Wide trees: the arithmetic is that of Appendix C, and the kernels' result equals the literal construction bit for bit.
 #include <gtest/gtest.h>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/error.h"
 #include "oibvh/kary_layout.h"
 #include "oibvh/oibvh.h"
@@ -74,7 +74,7 @@ std::vector<std::vector<Aabb>> literal_rows(std::vector<Aabb> leaves, uint child
 /// Compares a tree, and every box that is stored in its parent, with the literal tree over the reference's leaves.
 void expect_literal(const WideTree& tree, const HostTree& reference, const Way& way)
 {
-    const HostTree found = tree.spelled_out();
+    const HostTree found = tree.to_host_tree();
     std::vector<Aabb> leaves;
     std::vector<int> primitives;
     for (const HostTree::Node& node : reference.nodes)  // the last level, from the left
@@ -112,12 +112,12 @@ protected:
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
         const auto reference = make_oibvh_reference(bench().programs, {});
         reference->reserve(triangles);
-        const HostTree expected = reference->build(input, bench().queue).spelled_out();
+        const HostTree expected = reference->build(input, bench().queue).to_host_tree();
         const auto builder = GetParam().make(bench().programs, options);
         builder->reserve(triangles);
         ASSERT_EQ(builder->footprint(triangles), builder->reserved());
         const Tree& tree = builder->build(input, bench().queue);
-        ASSERT_EQ(broken_promise(tree.spelled_out(), mesh.points, mesh.faces), "");
+        ASSERT_EQ(invariant_violation(tree.to_host_tree(), mesh.points, mesh.faces), "");
         expect_literal(dynamic_cast<const WideTree&>(tree), expected, GetParam());
         bench().queue.finish();
     }

@@ -25,7 +25,7 @@ codes = dict(pair.split("=") for pair in os.environ["CODES"].split())
 code = int(codes.get(words[1] if words[0] == "run" else words[0], 0))
 if words[0] == "facts" and code == 0:
     print('{{"run": {{}}}}')
-elif words[0] == "settle":
+elif words[0] == "expand":
     print(json.dumps([{{}} for _ in json.load(sys.stdin)]))
 elif words[0] == "run" and code in (0, 1, 4):
     out = words[words.index("--out") + 1]

@@ -67,10 +67,10 @@ def answer_to(experiment: dict) -> dict:
 
 
 def swept(**keys: object) -> planned.Sweep:
-    def settle(experiments: list[dict]) -> list[dict]:
+    def expand(experiments: list[dict]) -> list[dict]:
         return [answer_to(experiment) for experiment in json.loads(json.dumps(experiments))]
 
-    return product.swept_of(keys, settle)
+    return product.swept_of(keys, expand)
 
 
 class Sizes(unittest.TestCase):

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 #include "geometry/error.h"
 
 namespace bvhbench::outside {
@@ -86,8 +86,9 @@ const std::vector<Face> faces = {{0, 1, 2}, {3, 4, 5}};
 std::string broken(std::vector<bvhbench_node> nodes, std::vector<std::uint32_t> entries)
 {
     std::string sentence;
-    const std::string why = refusal(
-        [&] { sentence = broken_promise(tree_of(nodes, entries, points, faces), points, faces); });
+    const std::string why = refusal([&] {
+        sentence = invariant_violation(tree_of(nodes, entries, points, faces), points, faces);
+    });
     return why + sentence;
 }
 

@@ -35,7 +35,7 @@ TEST(Catalog, TakesCountsWithUnitsAndNamesTheSceneInDigits)
         const Scene scene = load_scene(same, {});
         EXPECT_EQ(scene.name, "torus:1200") << same;
         EXPECT_EQ(scene.triangle_count(), 1200u) << same;
-        EXPECT_EQ(triangles_said(same), 1200u) << same;
+        EXPECT_EQ(triangles_in_name(same), 1200u) << same;
     }
     EXPECT_EQ(scene_name("torus:2.88M"), "torus:2880000");
     EXPECT_EQ(scene_name("cloth-ball:100k:3"), "cloth-ball:100000:3");

@@ -43,7 +43,7 @@ std::vector<Cell> planned_cells(const Experiment& experiment)
 
 /// Returns an experiment's cells, input files, and number of triangles (0 if only loading the scene tells it). Returns `error`
 /// for an invalid experiment, with `sized` if its scene is a generator without a size.
-Json settled(const Json& described, const SceneLibrary& library)
+Json expanded(const Json& described, const SceneLibrary& library)
 {
     try {
         const Experiment experiment = parse_experiment(described.dump(), "", false);
@@ -55,8 +55,9 @@ Json settled(const Json& described, const SceneLibrary& library)
         }
         const std::string& scene = planned.front().scene.name;
         if (is_sized_generator(scene))
-            return {{"sized", true}, {"error", reason_of_failure([&] { triangles_said(scene); })}};
-        const std::size_t triangles = triangles_said(scene);
+            return {{"sized", true},
+                    {"error", reason_of_failure([&] { triangles_in_name(scene); })}};
+        const std::size_t triangles = triangles_in_name(scene);
         for (const std::string& file : scene_files(scene, library))
             files.push_back(file);
         return {{"cells", cells}, {"triangles", triangles}, {"files", files}};
@@ -77,13 +78,13 @@ public:
     }
 };
 
-class Settle final : public Command {
+class Expand final : public Command {
 public:
     int run(const Invocation& invocation) override
     {
         Json answers = Json::array();
         for (const Json& described : Json::parse(std::cin))
-            answers.push_back(settled(described, scene_library(invocation.common)));
+            answers.push_back(expanded(described, scene_library(invocation.common)));
         std::cout << answers.dump() << '\n';
         return 0;
     }
@@ -125,10 +126,10 @@ extern const CommandEntry facts_command = {
     .summary = "What is known of the device and of a run on it, as JSON",
     .make = make_command<Facts>};
 
-extern const CommandEntry settle_command = {
-    .name = "settle",
+extern const CommandEntry expand_command = {
+    .name = "expand",
     .summary = "The cells of experiments on standard input, or what is wrong with them, as JSON",
-    .make = make_command<Settle>};
+    .make = make_command<Expand>};
 
 extern const CommandEntry view_command = {
     .name = "view",

@@ -23,7 +23,7 @@ HostTree rounded_to(HostTree tree, const BoxFormat& format);
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces);
 
 /// An invariant that a tree violates, described in a sentence.
-struct Breach {
+struct Violation {
     enum class Of { nothing, leaves, boxes } of = Of::nothing;  ///< `leaves` includes topology.
     std::string sentence;
 };
@@ -33,11 +33,11 @@ struct Breach {
 /// The invariants: each triangle is in exactly one leaf; each leaf's box is its triangle's box, rounded as the tree rounds, and
 /// contains it; each inner node's box is the union of its children's boxes, bit for bit; every node is reached exactly once
 /// from the root. If boxes may be larger, a box need only contain its triangle's or its children's.
-Breach first_breach(const HostTree& tree, std::span<const Point> points,
-                    std::span<const Face> faces);
+Violation first_violation(const HostTree& tree, std::span<const Point> points,
+                          std::span<const Face> faces);
 
-/// Returns the sentence of first_breach; empty if no invariant is violated.
-std::string broken_promise(const HostTree& tree, std::span<const Point> points,
-                           std::span<const Face> faces);
+/// Returns the sentence of first_violation; empty if no invariant is violated.
+std::string invariant_violation(const HostTree& tree, std::span<const Point> points,
+                                std::span<const Face> faces);
 
 }  // namespace bvhbench

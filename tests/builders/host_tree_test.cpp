@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +19,12 @@ HostTree right_tree()
     return tree;
 }
 
-TEST(BrokenPromise, IsEmptyForATreeThatKeepsThemAll)
+TEST(InvariantViolation, IsEmptyForATreeThatKeepsThemAll)
 {
-    EXPECT_EQ(broken_promise(right_tree(), points, faces), "");
+    EXPECT_EQ(invariant_violation(right_tree(), points, faces), "");
 }
 
-TEST(BrokenPromise, NamesEachKindOfFault)
+TEST(InvariantViolation, NamesEachKindOfFault)
 {
     struct Fault {
         void (*put_into)(HostTree&);
@@ -47,11 +47,11 @@ TEST(BrokenPromise, NamesEachKindOfFault)
            "node 0 has a child that is no node"}}) {
         HostTree tree = right_tree();
         fault.put_into(tree);
-        EXPECT_EQ(broken_promise(tree, points, faces), fault.sentence);
+        EXPECT_EQ(invariant_violation(tree, points, faces), fault.sentence);
     }
 }
 
-TEST(BrokenPromise, LooksAtEveryChildOfAWideNode)
+TEST(InvariantViolation, LooksAtEveryChildOfAWideNode)
 {
     HostTree tree;
     const std::vector<Face> eight(8, faces[0]);
@@ -61,10 +61,10 @@ TEST(BrokenPromise, LooksAtEveryChildOfAWideNode)
         tree.nodes[0].child[static_cast<std::size_t>(k)] = k + 1;
         tree.nodes[static_cast<std::size_t>(k) + 1] = {face_box(points, faces[0]), {}, k};
     }
-    EXPECT_EQ(broken_promise(tree, points, eight), "");
+    EXPECT_EQ(invariant_violation(tree, points, eight), "");
     HostTree fewer = tree;
     fewer.nodes[0].child[7] = HostTree::none;
-    EXPECT_EQ(broken_promise(fewer, points, eight), "1 nodes are not reached from the root");
+    EXPECT_EQ(invariant_violation(fewer, points, eight), "1 nodes are not reached from the root");
     EXPECT_NE(tree_hash(fewer), tree_hash(tree));
 }
 
@@ -83,7 +83,7 @@ TEST(Refitted, PutsBoxesAroundMovedPointsAndKeepsTheTree)
     moved[3] = {-1, 2, 9};
     for (const HostTree& tree : {right_tree(), support}) {
         const HostTree after = refitted(tree, moved, faces);
-        EXPECT_EQ(broken_promise(after, moved, faces), "");
+        EXPECT_EQ(invariant_violation(after, moved, faces), "");
         EXPECT_EQ(after.nodes[0].box.max_z, 9);
         EXPECT_EQ(after.nodes[0].box.min_x, -1);
         ASSERT_EQ(after.nodes.size(), tree.nodes.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "builders/spell_out.h"
+#include "builders/host_tree.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-using enum Breach::Of;
+using enum Violation::Of;
 
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
@@ -52,9 +52,9 @@ bool depth_first(const HostTree& tree, const Visit& visit)
 }
 
 /// Returns what is wrong with a leaf, if anything. Marks its triangle in `seen`.
-Breach broken_leaf(const HostTree& tree, const HostTree::Node& node, std::size_t index,
-                   std::span<const Point> points, std::span<const Face> faces,
-                   std::vector<bool>& seen)
+Violation leaf_violation(const HostTree& tree, const HostTree::Node& node, std::size_t index,
+                         std::span<const Point> points, std::span<const Face> faces,
+                         std::vector<bool>& seen)
 {
     const auto triangle = static_cast<std::size_t>(node.primitive);
     if (triangle >= faces.size())
@@ -74,7 +74,7 @@ Breach broken_leaf(const HostTree& tree, const HostTree::Node& node, std::size_t
     return {};
 }
 
-Breach broken_inner(const HostTree& tree, const HostTree::Node& node, std::size_t index)
+Violation inner_violation(const HostTree& tree, const HostTree::Node& node, std::size_t index)
 {
     Aabb box = empty_box();
     for (const int child : node.child)
@@ -137,22 +137,22 @@ HostTree rounded_to(HostTree tree, const BoxFormat& format)
     return tree;
 }
 
-Breach first_breach(const HostTree& tree, std::span<const Point> points,
-                    std::span<const Face> faces)
+Violation first_violation(const HostTree& tree, std::span<const Point> points,
+                          std::span<const Face> faces)
 {
-    Breach breach;
+    Violation violation;
     std::size_t reached = 0;
     std::vector<bool> seen(faces.size(), false);
     const bool is_tree = depth_first(tree, [&](const HostTree::Node& node, std::size_t index) {
         ++reached;
-        if (breach.of != nothing)
+        if (violation.of != nothing)
             return;
-        breach = node.primitive != HostTree::none
-                     ? broken_leaf(tree, node, index, points, faces, seen)
-                     : broken_inner(tree, node, index);
+        violation = node.primitive != HostTree::none
+                        ? leaf_violation(tree, node, index, points, faces, seen)
+                        : inner_violation(tree, node, index);
     });
-    if (breach.of != nothing)
-        return breach;
+    if (violation.of != nothing)
+        return violation;
     if (!is_tree)
         return {leaves, "a node is reached twice or is not there"};
     if (reached != tree.nodes.size())
@@ -164,10 +164,10 @@ Breach first_breach(const HostTree& tree, std::span<const Point> points,
     return {};
 }
 
-std::string broken_promise(const HostTree& tree, std::span<const Point> points,
-                           std::span<const Face> faces)
+std::string invariant_violation(const HostTree& tree, std::span<const Point> points,
+                                std::span<const Face> faces)
 {
-    return first_breach(tree, points, faces).sentence;
+    return first_violation(tree, points, faces).sentence;
 }
 
 }  // namespace bvhbench
