@@ -22,6 +22,7 @@ from .accuracy_points import METHODS, Point, by_input, draw_points, from_zero, l
 SCENE_COLUMNS = 4
 MOST_QUERIES = 1000
 
+
 def build_s(cell: results.Cell) -> float:
     """Returns the median time of all stages before the query, in seconds."""
     return results.median(cell.times_s() - cell.times_s("broad"))

@@ -9,9 +9,8 @@ from ..figures import catalog as all_figures
 from ..files import json_files, output
 from ..read import results
 from ..read.cells import Cell
-from . import builder_tables, cell_data, circumstances, findings, html, plot_looks, skip_tables, stress_data, tables
+from . import cell_data, circumstances, experiment_tables, findings, html, plot_looks, stress_data, tables
 from .tables import TO_SAMPLES
-
 
 LEADS_ON = "A time stands beside its verdict, and leads to its raw samples; so does a mark of a chart."
 IN_BRIEF = "A time stands beside its verdict; the result files have the raw samples."
@@ -27,7 +26,7 @@ def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell
     found = findings.findings_of(all_cells) + ([stress_data.finding_of(stress)] if stress else [])
     return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
             "bars": cell_data.bars_of(cells), "looks": plot_looks.looks_of(cells),
-            "tables": skip_tables.tables_of(all_cells) + builder_tables.tables_of(reader) + tables.tables_of(cells)
+            "tables": experiment_tables.skips(all_cells) + experiment_tables.builders(reader) + tables.tables_of(cells)
             + stress_data.tables_of(stress), "states": tallied(by_library),
             "findings": found, "star": cell_data.STAR,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
