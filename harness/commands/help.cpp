@@ -29,7 +29,6 @@ constexpr HelpLine environment[] = {
     {"BVHBENCH_KERNELS", "a source tree to read kernels from, where --kernels names none"},
     {"BVHBENCH_HOME",
      "the folder that plots/ is in, where that is not where the program was built"},
-    {"BVHBENCH_SAMPLE_LOCK", "a file: runs that name the same one take samples one at a time"},
     {"BVHBENCH_PACKAGES", "of the launcher: skip leaves the system's packages alone"},
     {"POCL_CACHE_DIR", "where PoCL keeps compiled kernels, in place of ~/.cache/bvhbench/pocl"},
 };

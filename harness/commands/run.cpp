@@ -51,8 +51,11 @@ public:
         const auto scenes_with = [&](const std::string& settings) {
             return planned_scenes(plan, filter, share, settings);
         };
-        if (scenes_with("").empty() && plan.impossible.empty())
-            throw BadUsage("--filter and --only: no cell of " + plan.name + " is left");
+        if (planned_scenes(plan, filter, {}, "").empty() && plan.impossible.empty())
+            throw BadUsage("--filter: no cell of " + plan.name + " matches '" + filter_ + "'");
+        if (scenes_with("").empty() && share.i > 1)
+            throw BadUsage("--only: " + plan.name + " has fewer than " + std::to_string(share.i) +
+                           " scenes");
         const CommonOptions& common = invocation.common;
         ResultFile results(
             Output(out(plan), "--out", result_rules(common.force, inputs(plan, common), resumes())),

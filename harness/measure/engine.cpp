@@ -7,7 +7,6 @@
 
 #include "harness/base/failure.h"
 #include "harness/session/race.h"
-#include "harness/session/sample_lock.h"
 #include "harness/session/sampler.h"
 #include "harness/session/watchdog.h"
 
@@ -237,7 +236,6 @@ void Engine::sample(std::span<Measurement> measurements, Caches caches, std::spa
     }
     std::vector<CellSamples> taken;
     {
-        const SampleLock alone;
         taken = session_samples(session_, timed, plan_, caches, order_);
     }
     for (std::size_t k = 0; k < ready.size(); ++k) {

@@ -12,6 +12,7 @@ FOLDER = pathlib.Path(__file__).resolve().parents[2] / "results"
 # Keys that the schema requires of a run, a cell and a result of stress.
 RUN = ("id", "started_at", "command", "program", "host", "device", "libraries")
 CELL = ("experiment", "scene", "builder", "status")
+JOURNAL = b'{"run": '  # first bytes of a journal
 STRESS = ("family", "scene", "system", "kind", "findings")
 
 
@@ -50,9 +51,20 @@ def require_all(document: dict[str, Any], parts: str, keys: Iterable[str]) -> No
 def document_of(text: bytes, origin: str) -> dict[str, Any]:
     """Parses and checks a result file. Raises Refused if the text is not a result file or has another major format."""
     try:
-        return checked(value_of(text), origin)
+        return checked(of_journal(text) if text.startswith(JOURNAL) else value_of(text), origin)
     except ValueError as error:
         raise Refused(f"{origin} is no result file: {error}") from error
+
+
+def of_journal(text: bytes) -> dict[str, Any]:
+    """Returns what a run that did not end has left (harness/record/journal.h), as a result file. A last line may be cut off. Raises
+    ValueError."""
+    lines = [value_of(line) for line in text.splitlines(keepends=True) if line.endswith(b"\n")]
+    runs = [line["run"] for line in lines if "run" in line]
+    if len(runs) != 1:
+        raise ValueError(f"it is a journal of {len(runs)} runs; `bvhbench run --resume` goes on with them")
+    cells, stress = ([line[kind] for line in lines if kind in line] for kind in ("cell", "stress"))
+    return {"format": f"{MAJOR}.0", "run": runs[0], "cells": cells} | ({"stress": stress} if stress else {})
 
 
 def checked(document: Any, origin: str) -> dict[str, Any]:

@@ -58,7 +58,7 @@ class Remake(unittest.TestCase):
                 self.assertEqual("BVHBENCH_PLUGINS" in given, needs == "plug-ins")
 
     def test_makes_a_part_once(self) -> None:
-        first = self.quick("--part", "2", "--only", "rebuild", "--jobs", "2")
+        first = self.quick("--part", "2", "--only", "rebuild")
         self.assertEqual((first.returncode, first.stdout), (0, "rebuild: run rebuild --quick\n"), first.stderr)
         made = self.folder / "rebuild.json.xz"
         document = json.loads(lzma.decompress(made.read_bytes()))
