@@ -112,7 +112,7 @@ def test_stopped_keeps_the_frames_that_are_done() -> None:
     os.mkdir("made")
     words = ("cloth-ball:3000:200", "--frames", "0:", "--builders", "oibvh-multi", "--orders", "morton30", "--colliders", "leaf,group")
     with at_work("best", *words, TMPDIR=os.path.abspath("made")) as process:
-        wait_until(lambda: list(pathlib.Path("made").glob("bvhbench-*/result.json")))
+        wait_until(lambda: any('"cell"' in path.read_text() for path in pathlib.Path("made").glob("bvhbench-*/result.json.journal")))
         said, errors = ended(process, signal.SIGINT)
     assert process.returncode == 130 and KEPT in errors, (process.returncode, said, errors)
     result = valid("best.json")
