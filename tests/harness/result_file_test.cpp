@@ -102,8 +102,9 @@ TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
 {
     const fs::path path = folder_ / "r.json";
     leave_killed(path);
-    EXPECT_NE(refusal_of([&] { ResultFile(resumed(path), false, Resuming{}, ""); }).find("did not end"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal_of([&] { ResultFile(resumed(path), false, Resuming{}, ""); }).find("did not end"),
+        std::string::npos);
     Json run = fake_run();
     run["id"] = "later";
     {
@@ -127,8 +128,7 @@ TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
     EXPECT_EQ(document["cells"][0]["run"], fake_run()["id"]);
     EXPECT_EQ(document["cells"][1]["run"], "later");
     // A finished file is gone on with too, and nothing is left to do.
-    ResultFile again(resumed(path), false,
-                     Resuming{.is_asked = true}, "");
+    ResultFile again(resumed(path), false, Resuming{.is_asked = true}, "");
     EXPECT_TRUE(again.take_part("0123"));
     EXPECT_TRUE(again.take_part("4567"));
     EXPECT_EQ(again.take_part("89ab"), std::nullopt);
