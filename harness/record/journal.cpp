@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "geometry/error.h"
@@ -103,6 +104,12 @@ Journal::~Journal()
 void Journal::open(std::filesystem::path path)
 {
     path_ = std::move(path);
+    std::error_code none;
+    if (std::filesystem::file_size(path_, none) > 0 &&
+        !none) {  // a last line may have been cut off
+        const std::string text = file_text(path_, "the journal");
+        std::filesystem::resize_file(path_, text.rfind('\n') + 1);
+    }
     file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file_ < 0)
         throw Unavailable(path_.string() + " cannot be written: " + std::strerror(errno));
@@ -113,10 +120,12 @@ void Journal::append(const std::string& line)
     if (file_ < 0)
         return;
     const std::string text = line + '\n';
-    const ssize_t count = write(file_, text.data(), text.size());
-    if (count != static_cast<ssize_t>(text.size()))
-        throw Unavailable(path_.string() + " cannot be written: " +
-                          (count < 0 ? std::strerror(errno) : "the disk is full"));
+    for (std::string_view rest = text; !rest.empty();) {
+        const ssize_t count = write(file_, rest.data(), rest.size());
+        if (count < 0 && errno != EINTR)
+            throw Unavailable(path_.string() + " cannot be written: " + std::strerror(errno));
+        rest.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
 }
 
 }  // namespace bvhbench

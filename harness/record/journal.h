@@ -50,7 +50,7 @@ public:
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    /// Opens the file. Throws Unavailable with the system's reason, as append() does.
+    /// Opens the file, and removes a last line that was cut off. Throws Unavailable with the system's reason, as append() does.
     void open(std::filesystem::path path);
 
     /// Appends a line of JSON at once. Does nothing before open().

@@ -83,6 +83,8 @@ TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
     EXPECT_TRUE(file.has_begun());
     EXPECT_EQ(file.next_order(), 10);
     file.begin({});
+    const std::string journal = text_of(path.string() + ".journal");
+    EXPECT_EQ(journal.substr(journal.size() - 2), "}\n") << "the line that was cut off is gone";
     EXPECT_EQ(file.take_part("0123"), 1.5);
     EXPECT_EQ(file.take_part("4567"), std::nullopt) << "it has not ended";
     file.begin_part("4567");
