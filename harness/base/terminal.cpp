@@ -151,12 +151,13 @@ void Progress::note(const std::string& what, double share)
 /// Returns 0 if nothing is known.
 double Progress::seconds_left(double share, Clock::time_point now) const
 {
-    const double finished = static_cast<double>(begun_) - 1, item = seconds(now - item_start_);
+    const double finished = static_cast<double>(begun_ - passed_) - 1,
+                 item = seconds(now - item_start_);
     const double mean = finished > 0 ? seconds(item_start_ - start_) / finished : item / share;
     if (finished <= 0 && share <= 0)
         return 0;
     const double rest = share > 0 ? item / share - item : std::max(0.0, mean - item);
-    return rest + mean * (static_cast<double>(total_) - finished - 1);
+    return rest + mean * static_cast<double>(total_ - begun_);
 }
 
 }  // namespace bvhbench

@@ -68,7 +68,7 @@ public:
     void note(const std::string& what, double share = 0);
 
     /// Counts an item that needs no work.
-    void pass() { ++begun_; }
+    void pass() { ++begun_, ++passed_; }
 
     /// Removes the line, before other output.
     void clear() const;
@@ -80,6 +80,7 @@ private:
 
     std::size_t total_;
     std::size_t begun_ = 0;
+    std::size_t passed_ = 0;  ///< number of those that needed no work
     bool is_shown_;
     Clock::time_point start_ = Clock::now(), item_start_ = start_, shown_ = {};
 };

@@ -62,10 +62,11 @@ public:
             common.force, resuming_, watchdog::run_id());
         watchdog::let_signals_through();
         Session session(common);
-        const std::vector<PlannedScene> scenes = scenes_with(settings(session, common));
+        const std::string settings = this->settings(session, common);
+        const std::vector<PlannedScene> scenes = scenes_with(settings);
+        const std::set<std::string> keys = keys_of(planned_scenes(plan, filter, {}, settings));
         if (resumes())
-            results.check_earlier(keys(planned_scenes(plan, filter, {}, settings(session, common))),
-                                  run_facts(session.device(), {}));
+            results.check_earlier(keys, run_facts(session.device(), {}));
         Run run(session, results, costs_);
         const auto begin = [&] {
             results.begin(results.has_begun() ? Json()
@@ -94,6 +95,8 @@ private:
         if (!resumes() && (resuming_.other_commits || resuming_.retries_failed))
             throw BadUsage("--continue-other-commit and --retry-failed need --resume");
         RunPlan plan = find_plan(name_, quick_);
+        if (plan.has_parts && !turns_.empty())
+            throw BadUsage("--turns is for an experiment: the parts of a plan have a process each");
         for (Experiment& experiment : plan.parts)
             apply_options(experiment);
         return plan;
@@ -167,11 +170,13 @@ private:
         return hex(hash.get());
     }
 
-    static std::set<std::string> keys(const std::vector<PlannedScene>& scenes)
+    /// Throws BadUsage if a key is there twice.
+    static std::set<std::string> keys_of(const std::vector<PlannedScene>& scenes)
     {
         std::set<std::string> keys;
         for (const PlannedScene& scene : scenes)
-            keys.insert(scene.key);
+            if (!keys.insert(scene.key).second)
+                throw BadUsage("two parts of the plan are the same, over " + scene.name);
         return keys;
     }
 
@@ -192,8 +197,7 @@ extern const CommandEntry run_command = {
     "Run an experiment, or a plan of several, and write its result file",
     "An experiment is a list of scenes, builders, colliders and samples, as JSON; some are in the "
     "program. Builders of a scene are sampled in turn. While it runs, finished cells are in a "
-    "journal "
-    "beside the result file, from which --resume goes on.",
+    "journal beside the result file, from which --resume goes on.",
     {{"bvhbench run peers --out peers.json", "an experiment of `list experiments`"},
      {"bvhbench run mine.json --filter bunny/oibvh --samples 50",
       "one of your own, and part of it"},

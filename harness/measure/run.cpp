@@ -9,7 +9,6 @@
 #include "builders/device_tree.h"
 #include "device/yardsticks.h"
 #include "geometry/error.h"
-#include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"
 #include "harness/base/test_hooks.h"
@@ -24,30 +23,6 @@
 
 namespace bvhbench {
 namespace {
-
-/// Returns the task's pipelines that match the filter.
-std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& filter)
-{
-    std::vector<PipelineChoice> pipelines = task.pipelines;
-    std::erase_if(pipelines, [&](const PipelineChoice& pipeline) {
-        return !passes(filter,
-                       task.scene + '/' + pipeline.builder.name + '/' + pipeline.collider.name);
-    });
-    return pipelines;
-}
-
-std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::string& scene,
-                                  const CellFilter& filter)
-{
-    std::vector<BuilderChoice> builders;
-    for (const BuilderChoice& builder : experiment.builders)
-        if (passes(filter, scene + '/' + builder.name))
-            builders.push_back(builder);
-    return builders;
-}
-
-/// Cost of a process's start, in triangles.
-constexpr std::size_t triangles_of_a_start = 100'000;
 
 /// Guesses the time of the scenes that are left from those before, by their weights.
 struct TimeLeft {
@@ -155,63 +130,6 @@ Json measured_facts(Session& session, std::vector<std::string> command, const No
     if (!failure.empty())
         session.renew_queue();  // a device without room for the copy can still build small trees
     return facts;
-}
-
-std::vector<std::string> files_of(const std::vector<std::string>& scenes,
-                                  const SceneLibrary& library)
-{
-    std::vector<std::string> files;
-    for (const std::string& scene : scenes)
-        std::ranges::move(scene_files(scene, library), std::back_inserter(files));
-    return files;
-}
-
-CellFilter cell_filter(const std::string& text, const char* option)
-{
-    if (text.empty())
-        return {};
-    auto filter = std::make_shared<const re2::RE2>(text, re2::RE2::Quiet);
-    if (!filter->ok())
-        throw BadUsage(std::string(option) + ": '" + text + "' is no regular expression: " +
-                       filter->error().substr(0, filter->error().find(':')));
-    return filter;
-}
-
-bool passes(const CellFilter& filter, const std::string& cell)
-{
-    return filter == nullptr || re2::RE2::PartialMatch(cell, *filter);
-}
-
-std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& filter,
-                                         const PlanShare& share, const std::string& settings)
-{
-    std::vector<PlannedScene> found;
-    std::size_t number = 0;
-    const auto add = [&](const Experiment& experiment, const std::string& name, std::size_t cells,
-                         const CollideTask* task) {
-        PlannedScene planned{&experiment, number, task, name, "", 0};
-        if (!share.has(number++) || cells == 0)
-            return;
-        std::size_t triangles = 0;
-        reason_of_failure([&] { triangles = triangles_in_name(name); });
-        planned.weight = static_cast<double>(cells * (triangles + triangles_of_a_start));
-        if (!settings.empty()) {
-            Hash hash;
-            for (const std::string& text : {settings, experiment.source, name})
-                hash.bytes(text.c_str(), text.size() + 1);
-            // An experiment may have a scene twice, with other frames or as builds and as pipelines.
-            hash.value(plan.has_parts ? 0 : planned.number);
-            planned.key = hex(hash.get());
-        }
-        found.push_back(std::move(planned));
-    };
-    for (const Experiment& experiment : plan.parts) {
-        for (const CollideTask& task : experiment.collisions)
-            add(experiment, task.scene, chosen(task, filter).size(), &task);
-        for (const std::string& name : experiment.scenes)
-            add(experiment, name, chosen(experiment, name, filter).size(), nullptr);
-    }
-    return found;
 }
 
 void Run::experiment(const Experiment& experiment)

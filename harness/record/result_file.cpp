@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iomanip>
-#include <sstream>
+#include <cmath>
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -29,45 +28,6 @@ void note_memory(Json& run)
                               {"peak_bytes", most("peak_bytes", now.peak)}};
 }
 
-/// Returns what a file of several runs keeps of each (results/schema, `source`). `run` may be that already.
-Json source_of(const Json& run)
-{
-    if (!run.contains("program"))
-        return run;
-    Json source;
-    const auto keep = [&](const Json& facts, const char* key, const char* name) {
-        if (facts.contains(key))
-            source[name] = facts[key];
-    };
-    for (const char* key : {"id", "started_at", "finished_at", "command"})
-        keep(run, key, key);
-    keep(run["program"], "commit", "commit");
-    keep(run["program"], "dirty", "dirty");
-    keep(run["host"], "name", "host");
-    keep(run["device"], "name", "device");
-    keep(run["device"], "driver", "driver");
-    for (const char* key : {"copy_rate_bytes_per_s", "launch_cost_ns", "conditions"})
-        keep(run, key, key);
-    return source;
-}
-
-std::string device_of(const Json& source)
-{
-    return source.value("device", "") + ", driver " + source.value("driver", "");
-}
-
-std::string program_of(const Json& source)
-{
-    return "commit " + source.value("commit", "").substr(0, 10) +
-           (source.value("dirty", false) ? " with changes" : "");
-}
-
-std::string with_key(std::string text, const char* key, const std::string& value)
-{
-    text.pop_back();
-    return text + ",\"" + key + "\":\"" + value + "\"}";
-}
-
 std::string counted(std::size_t cells)
 {
     return std::to_string(cells) + (cells == 1 ? " cell" : " cells");
@@ -89,20 +49,22 @@ ResultFile::ResultFile(Output output, bool force, const Resuming& resuming,
     if (!output_.is_file())
         return;
     const std::filesystem::path path = output_.beside(journal_end);
-    const bool has_journal = std::filesystem::exists(path);
     if (resuming_.is_asked && output_.was_there())
-        earlier_ = measured_in(output_.path());
-    if (has_journal && (resuming_.is_asked || !resumed_run.empty()))
-        add_journal(path, earlier_);
-    else if (has_journal && !force)
-        throw BadUsage(path.string() +
-                       " has cells of a run that did not end: `run --resume` goes on with those of "
-                       "a plan, --force begins anew");
-    else if (has_journal)
-        std::filesystem::remove(path);
+        earlier_ = runs_in_result(output_.path());
+    if (std::filesystem::exists(path)) {
+        const bool is_read = resuming_.is_asked || !resumed_run.empty();
+        if (!is_read && !force)
+            throw BadUsage(
+                path.string() +
+                " has cells of a run that did not end: `run --resume` goes on with those "
+                "of a plan, --force begins anew");
+        if (is_read && add_journal(path, earlier_))
+            is_written_ = false;
+        else
+            std::filesystem::remove(path);
+    }
     run_ = earlier_.last_run;
-    has_begun_ = !resumed_run.empty() && run_.is_object() && run_.value("id", "") == resumed_run;
-    is_written_ = !has_journal;
+    has_begun_ = !resumed_run.empty() && earlier_.last_id() == resumed_run;
     has_measured_ = !earlier_.parts.empty();
     at_signal_.emplace([this] { keep(); }, "finished cells are kept");
 }
@@ -138,27 +100,11 @@ void ResultFile::begin(Json run)
     journal_.append("{\"run\": " + one_line(run_) + '}');
 }
 
-void ResultFile::check_earlier(const std::set<std::string>& keys, const Json& run) const
+void ResultFile::check_earlier(const std::set<std::string>& keys, const Json& run)
 {
-    const auto foreign = std::ranges::count_if(
-        earlier_.order, [&](const std::string& key) { return !keys.contains(key); });
-    const std::string holds = output_.path().string() + " has ";
-    const char* const instead = "; choose another --out, or --force begins anew";
-    if (foreign > 0)
-        throw BadUsage(
-            holds + std::to_string(foreign) + " of " + std::to_string(earlier_.order.size()) +
-            " parts that are none of this plan, or were measured with other options" + instead);
-    const Json own = source_of(run);
-    for (const Json& each : earlier_.runs) {
-        const Json source = source_of(each);
-        if (device_of(source) != device_of(own))
-            throw BadUsage(holds + "cells of " + device_of(source) + ", and this is " +
-                           device_of(own) + instead);
-        if (program_of(source) != program_of(own) && !resuming_.other_commits)
-            throw BadUsage(holds + "cells by " + program_of(source) + ", and this program is of " +
-                           program_of(own) + ": --continue-other-commit keeps them and goes on" +
-                           instead);
-    }
+    is_left_ = true;
+    earlier_.check(output_.path(), keys, run, resuming_.other_commits);
+    is_left_ = false;
 }
 
 std::optional<double> ResultFile::take_part(const std::string& key)
@@ -186,55 +132,40 @@ void ResultFile::begin_part(const std::string& key)
     const std::lock_guard lock(mutex_);
     part_ = key;
     part_begin_ = cells_.size();
-    taken_ = 0;
     const auto found = earlier_.parts.find(key);
-    const bool is_known = found != earlier_.parts.end();
-    there_ = is_known ? std::move(found->second.cells) : std::vector<Json>();
-    if (!is_known)
+    if (found == earlier_.parts.end())
         return;
-    if (there_.empty())
-        journal_.append("{\"part\": \"" + part_ + "\", \"keeps\": 0}");
+    there_ = std::move(found->second.cells);
     earlier_.parts.erase(found);
+    if (there_.empty())
+        journal_.append(part_, "keeps", "0");
 }
 
 bool ResultFile::pass(std::size_t count)
 {
     const std::lock_guard lock(mutex_);
-    if (count > 0 && there_.size() >= taken_ + count) {
-        take_over(std::span(there_).subspan(taken_, count));
-        taken_ += count;
+    if (count > 0 && there_.size() >= count) {
+        take_over(std::span(there_).first(count));
+        there_.erase(there_.begin(), there_.begin() + static_cast<std::ptrdiff_t>(count));
         return true;
     }
-    if (there_.size() > taken_)
-        journal_.append("{\"part\": \"" + part_ + "\", \"keeps\": " + std::to_string(taken_) + '}');
-    there_.resize(taken_);
+    if (!there_.empty())
+        journal_.append(part_, "keeps", std::to_string(cells_.size() - part_begin_));
+    there_.clear();
     return false;
 }
 
 void ResultFile::end_part(double seconds)
 {
     const std::lock_guard lock(mutex_);
-    std::ostringstream line;
-    line << "{\"part\": \"" << part_ << "\", \"ended\": " << std::fixed << std::setprecision(1)
-         << seconds << '}';
-    journal_.append(line.str());
-}
-
-/// Returns a cell of which nothing more will change.
-ResultFile::CellText ResultFile::kept(Json cell, const std::string& run)
-{
-    cell.erase("run");
-    return {.text = cell.dump(),
-            .run = run,
-            .verdict = cell.value("/check/verdict"_json_pointer, ""),
-            .reason = cell.value("reason", ""),
-            .is_measured = cell.value("status", "") == "measured"};
+    journal_.append(part_, "ended", Json(std::round(seconds * 10) / 10).dump());
+    part_.clear();
 }
 
 void ResultFile::take_over(std::span<const Json> cells)
 {
     for (const Json& cell : cells)
-        cells_.push_back(kept(cell, cell.at("run")));
+        cells_.push_back(text_of(cell, cell.at("run")));
 }
 
 int ResultFile::next_order() const
@@ -265,13 +196,6 @@ void ResultFile::leave()
     is_left_ = true;
 }
 
-/// Writes a line to the journal, `text` as its `kind`.
-void ResultFile::add_line(const char* kind, const std::string& text)
-{
-    is_written_ = false;
-    journal_.append("{\"part\": \"" + part_ + "\", \"" + kind + "\": " + text + '}');
-}
-
 void ResultFile::add(const Cell& cell)
 {
     const std::lock_guard lock(mutex_);
@@ -282,7 +206,8 @@ void ResultFile::add(const Cell& cell)
                       .verdict = std::string(verdict_name(cell.check.verdict)),
                       .reason = cell.reason,
                       .is_measured = cell.status == Cell::Status::measured});
-    add_line("cell", cells_.back().text);
+    is_written_ = false;
+    journal_.append(part_, "cell", cells_.back().text);
 }
 
 void ResultFile::add(const StressCell& cell)
@@ -290,13 +215,14 @@ void ResultFile::add(const StressCell& cell)
     const std::lock_guard lock(mutex_);
     has_measured_ = true;
     stress_.push_back(cell_text(cell));
-    add_line("stress", stress_.back());
+    is_written_ = false;
+    journal_.append(part_, "stress", stress_.back());
 }
 
 void ResultFile::add_impossible(const Json& cell)
 {
     const std::lock_guard lock(mutex_);
-    cells_.push_back(kept(cell, run_.value("id", "")));
+    cells_.push_back(text_of(cell, run_.value("id", "")));
 }
 
 void ResultFile::finish(const EndOfRun& end)
@@ -317,44 +243,37 @@ void ResultFile::finish(const EndOfRun& end)
 }
 
 /// Returns all cells: those of parts that were not begun come last.
-std::vector<ResultFile::CellText> ResultFile::all_cells() const
+std::vector<CellText> ResultFile::all_cells() const
 {
     std::vector<CellText> all = cells_;
-    for (std::size_t k = taken_; k < there_.size(); ++k)
-        all.push_back(kept(there_[k], there_[k].at("run")));
+    for (const Json& cell : there_)
+        all.push_back(text_of(cell, cell.at("run")));
     for (const std::string& key : earlier_.order)
         if (const auto part = earlier_.parts.find(key); part != earlier_.parts.end())
             for (const Json& cell : part->second.cells)
-                all.push_back(kept(cell, cell.at("run")));
+                all.push_back(text_of(cell, cell.at("run")));
     return all;
+}
+
+/// Returns the keys of parts of which cells may be missing.
+Json ResultFile::unfinished_parts() const
+{
+    Json keys = Json::array();
+    if (!part_.empty())
+        keys.push_back(part_);
+    for (const auto& [key, part] : earlier_.parts)
+        if (!part.has_ended)
+            keys.push_back(key);
+    return keys;
 }
 
 std::string ResultFile::text() const
 {
-    const std::vector<CellText> cells = all_cells();
-    std::vector<std::string> lines, sources;
-    const std::string own = run_.value("id", "");
-    const bool is_merged =
-        std::ranges::any_of(cells, [&](const CellText& cell) { return cell.run != own; });
-    for (const CellText& cell : cells)
-        lines.push_back(is_merged ? with_key(cell.text, "run", cell.run) : cell.text);
-    for (const Json& run : earlier_.runs)
-        if (is_merged && std::ranges::count(cells, run.value("id", ""), &CellText::run) > 0)
-            sources.push_back(source_of(run.value("id", "") == own ? run_ : run).dump());
-    // One cell per line, so that files can be compared by diff.
-    std::string text = "{\"format\": \"" + result_format + "\",\n\"run\": " + one_line(run_);
-    const auto put = [&](const char* name, const std::vector<std::string>& list) {
-        text += std::string(",\n\"") + name + "\": [";
-        for (const std::string& line : list)
-            text += (text.back() == '[' ? "\n" : ",\n") + line;
-        text += "\n]";
-    };
-    if (is_merged)
-        put("merged_from", sources);
-    put("cells", lines);
-    if (!stress_.empty())
-        put("stress", stress_);
-    return text + "}\n";
+    std::vector<Json> runs = earlier_.runs;
+    for (Json& run : runs)
+        if (run.value("id", "") == run_.value("id", ""))
+            run = run_;
+    return result_text(run_, runs, all_cells(), stress_);
 }
 
 std::string ResultFile::outcome_of_part() const
@@ -400,6 +319,9 @@ void ResultFile::remove_journal() const
 void ResultFile::write()
 {
     note_memory(run_);
+    run_.erase("unfinished_parts");
+    if (const Json keys = unfinished_parts(); !keys.empty())
+        run_["unfinished_parts"] = keys;
     if (!output_.is_nowhere() && is_worth_writing())
         output_.replace(text());
     is_written_ = true;

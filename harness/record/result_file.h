@@ -10,9 +10,11 @@
 
 #include "harness/base/interrupt.h"
 #include "harness/base/json_keys.h"
+#include "harness/record/earlier_runs.h"
 #include "harness/record/journal.h"
 #include "harness/record/output.h"
 #include "harness/record/record.h"
+#include "harness/record/result_text.h"
 
 namespace bvhbench {
 
@@ -55,9 +57,8 @@ public:
     /// Begins the run with its facts (harness/record/provenance.h), unless an earlier process has.
     void begin(Json run);
 
-    /// Throws BadUsage if earlier runs have a part that is none of `keys`, or were made on another device than `run`, or, unless it
-    /// was asked for, by another program.
-    void check_earlier(const std::set<std::string>& keys, const Json& run) const;
+    /// Throws what EarlierRuns::check throws, and leaves all files as they are then.
+    void check_earlier(const std::set<std::string>& keys, const Json& run);
 
     /// If part `key` of the plan is complete, takes over its cells and returns the seconds that it took; 0: unknown.
     std::optional<double> take_part(const std::string& key);
@@ -110,35 +111,26 @@ public:
     std::string written() const;
 
 private:
-    /// A cell's JSON text, which is made only once, the id of its run, and its outcome.
-    struct CellText {
-        std::string text, run, verdict, reason;
-        bool is_measured;
-    };
-
-    static CellText kept(Json cell, const std::string& run);
     void take_over(std::span<const Json> cells);
-    void add_line(const char* kind, const std::string& text);
     std::vector<CellText> all_cells() const;
+    Json unfinished_parts() const;
     bool is_worth_writing() const;
     void remove_journal() const;
     void write();
 
     Output output_;
     Resuming resuming_;
-    Measured earlier_;        ///< parts that were not begun yet
+    EarlierRuns earlier_;     ///< parts that were not begun yet
     Json run_;                ///< of this process, or the last one
     bool has_begun_ = false;  ///< whether run_ is of this process, or of one of the same run
     Journal journal_;
-    std::string part_;            ///< key of the part that is measured
+    std::string part_;  ///< key of the part that is measured; empty: none, or it has no key
     std::size_t part_begin_ = 0;  ///< index of its first cell
-    std::vector<Json>
-        there_;  ///< its cells that earlier processes have measured and pass() has not taken over
-    std::size_t taken_ = 0;  ///< number of these that it has
+    std::vector<Json> there_;     ///< its cells of earlier processes that pass() has not taken over
     std::vector<CellText> cells_;
     std::vector<std::string> stress_;
     bool has_measured_ = false;  ///< whether there are cells that may replace an existing file
-    bool is_left_ = false;       ///< whether another process goes on
+    bool is_left_ = false;       ///< whether files stay as they are
     bool is_written_ = true;
     mutable std::timed_mutex mutex_;  ///< guards all cells and the writing
     std::optional<AtSignal> at_signal_;

@@ -52,7 +52,7 @@ def document_of(text: bytes, origin: str) -> dict[str, Any]:
     """Parses and checks a result file. Raises Refused if the text is not a result file or has another major format."""
     try:
         return checked(of_journal(text) if text.startswith(JOURNAL) else value_of(text), origin)
-    except ValueError as error:
+    except (KeyError, TypeError, ValueError) as error:
         raise Refused(f"{origin} is no result file: {error}") from error
 
 
@@ -63,8 +63,14 @@ def of_journal(text: bytes) -> dict[str, Any]:
     runs = [line["run"] for line in lines if "run" in line]
     if len(runs) != 1:
         raise ValueError(f"it is a journal of {len(runs)} runs; `bvhbench run --resume` goes on with them")
-    cells, stress = ([line[kind] for line in lines if kind in line] for kind in ("cell", "stress"))
-    return {"format": f"{MAJOR}.0", "run": runs[0], "cells": cells} | ({"stress": stress} if stress else {})
+    parts: dict[str, list[Any]] = {}
+    for line in lines[1:]:
+        cells = parts.setdefault(line["part"], [])
+        del cells[line.get("keeps", len(cells)):]
+        cells += [line["cell"]] if "cell" in line else []
+    stress = [line["stress"] for line in lines if "stress" in line]
+    document = {"format": f"{MAJOR}.0", "run": runs[0], "cells": [cell for cells in parts.values() for cell in cells]}
+    return document | ({"stress": stress} if stress else {})
 
 
 def checked(document: Any, origin: str) -> dict[str, Any]:

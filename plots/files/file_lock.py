@@ -8,33 +8,30 @@ from collections.abc import Iterator
 
 from .json_files import Refused
 
-EXCLUSIVE, SHARED = fcntl.LOCK_EX, fcntl.LOCK_SH
-PAUSE_S = 0.05
+PATIENCE_S, PAUSE_S = 1, 0.05
 
 
 @contextlib.contextmanager
-def locked(path: str, kind: int, subject: str, patience_s: float = 1, remove: bool = False) -> Iterator[None]:
-    """Holds a lock on `path`, and with `remove` (exclusive locks only) deletes the file at the end. Retries for `patience_s`
-    while another process holds the lock, since the system takes a moment to end a killed process. Raises Refused after that, or
+def locked(path: str, subject: str) -> Iterator[None]:
+    """Holds a lock on `path`, and deletes the file at the end. Retries for PATIENCE_S while another process holds the lock, since the system takes a moment to end a killed process. Raises Refused after that, or
     if the file cannot be created; the message names `subject`. A file system without locks excludes no other process."""
-    descriptor = taken(path, kind, subject, time.monotonic() + patience_s)
+    descriptor = taken(path, subject, time.monotonic() + PATIENCE_S)
     try:
         yield
     finally:
-        if remove:
-            with contextlib.suppress(OSError):
-                os.unlink(path)
+        with contextlib.suppress(OSError):
+            os.unlink(path)
         os.close(descriptor)
 
 
-def taken(path: str, kind: int, subject: str, until: float) -> int:
+def taken(path: str, subject: str, until: float) -> int:
     while True:
         try:
             descriptor = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
         except OSError as error:
             raise Refused(f"{subject} cannot be written: {error.strerror}") from error
         try:
-            fcntl.flock(descriptor, kind | fcntl.LOCK_NB)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             is_held = False
         except OSError as error:
             is_held = error.errno in (errno.EWOULDBLOCK, errno.EINTR)

@@ -33,7 +33,7 @@ def reserved(path: str, option: str, force: bool, inputs: Iterable[str] = (),
     folder = os.path.dirname(target) or "."
     require_writable(path, target, folder)
     lock = os.path.join(folder, f".{os.path.basename(target)}.lock")
-    with file_lock.locked(lock, file_lock.EXCLUSIVE, path, remove=True):
+    with file_lock.locked(lock, path):
         if os.path.exists(target) and os.path.getsize(target) > 0:  # the last lock holder may have written it
             check_earlier(path, target, option, inputs, force, may_replace)
         yield

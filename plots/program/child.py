@@ -15,13 +15,13 @@ def environment() -> dict[str, str]:
     return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
 
 
-def started(words: list[str], program: str | None = None, **streams: int | IO[bytes] | None) -> subprocess.Popen[bytes]:
-    """Starts the program, from the file `program` if given. Raises Refused if it cannot be started.
+def started(words: list[str], **streams: int | IO[bytes] | None) -> subprocess.Popen[bytes]:
+    """Starts the program. Raises Refused if it cannot be started.
 
     The child has its own process group, so a terminal's Ctrl-C reaches it only once, forwarded by this process. A second signal
     would end it before it has saved its results."""
     try:
-        return subprocess.Popen([command.PROGRAM, *words], executable=program, env=environment(), process_group=0, **streams)
+        return subprocess.Popen([command.PROGRAM, *words], env=environment(), process_group=0, **streams)
     except OSError as error:
         raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
 

@@ -172,7 +172,8 @@ def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_
             if name in used:
                 sources.setdefault(name, source)
     first = files[0].document
-    text = document_text(first["run"], [line_of(cell) for cell in measured], [line_of(cell) for cell in stress],
+    unfinished = list(dict.fromkeys(key for part in files for key in part.document["run"].get("unfinished_parts", ())))
+    text = document_text(first["run"] | ({"unfinished_parts": unfinished} if unfinished else {}), [line_of(cell) for cell in measured], [line_of(cell) for cell in stress],
                          [line_of(source) for source in sources.values()],
                          first["format"])
     return Merged(text, len(measured) + len(stress), len(sources), repeated + repeated_stress,

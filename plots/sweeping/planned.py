@@ -1,5 +1,4 @@
 """A cell of a sweep: the experiment of its process, and the program's description of it or the reason why it is impossible."""
-import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -100,8 +99,3 @@ def unexpanded(one: Planned, sweep: Sweep) -> Json:
         of_scene |= {"pairs_of": one.scene["pairs_of"]} if "pairs_of" in one.scene else {}
         raw["collider"] = choice(one.collider | one.query | of_scene)
     return raw
-
-
-def hash_of(*parts: str) -> str:
-    """Returns 16 hexadecimal digits: a hash of all parts and of their boundaries."""
-    return hashlib.sha256(b"".join(part.encode(errors="surrogateescape") + b"\0" for part in parts)).hexdigest()[:16]

@@ -136,6 +136,37 @@ TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
     EXPECT_EQ(again.take_part("89ab"), std::nullopt);
 }
 
+TEST_F(ResultFileTest, AfterAKillBetweenTheFileAndItsJournalHasEachCellOnce)
+{
+    const fs::path path = folder_ / "r.json", journal = path.string() + ".journal";
+    leave_killed(path);
+    const std::string lines = text_of(journal);
+    {
+        ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+    }
+    EXPECT_FALSE(fs::exists(journal));
+    std::ofstream(journal) << lines;
+    ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+    EXPECT_FALSE(fs::exists(journal));
+    EXPECT_EQ(Json::parse(file.text())["cells"].size(), 2u);
+    EXPECT_TRUE(file.take_part("0123"))
+        << "a part that was complete stays so in a file that is not";
+    EXPECT_FALSE(file.take_part("4567"));
+}
+
+TEST_F(ResultFileTest, ThatIsRefusedLeavesAllFilesAsTheyAre)
+{
+    const fs::path path = folder_ / "r.json", journal = path.string() + ".journal";
+    leave_killed(path);
+    const std::string lines = text_of(journal);
+    {
+        ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+        EXPECT_THROW(file.check_earlier({"0123"}, fake_run()), BadUsage);
+    }
+    EXPECT_EQ(text_of(journal), lines);
+    EXPECT_FALSE(fs::exists(path));
+}
+
 TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
 {
     const fs::path path = folder_ / "r.json";

@@ -7,7 +7,7 @@ import unittest
 import jsonschema
 from base import GOLDEN, ROOT, InFolder  # first: it adds the source root to sys.path
 
-from plots.files import documents, file_lock
+from plots.files import documents
 from plots.files.json_files import Refused
 from plots.files.output import WrongUsage
 from plots.files.reserved import reserved
@@ -210,13 +210,6 @@ class Reserving(InFolder):
             with self.assertRaisesRegex(Refused, "link is being written by another process"):
                 self.reserve("link")
         self.reserve("link")
-
-    def test_a_shared_lock_lets_others_share(self) -> None:
-        lock = str(self.folder / "lock")
-        with file_lock.locked(lock, file_lock.SHARED, "it"), file_lock.locked(lock, file_lock.SHARED, "it"):
-            with self.assertRaisesRegex(Refused, "^it is being written by another process$"):
-                with file_lock.locked(lock, file_lock.EXCLUSIVE, "it", patience_s=0.1):
-                    pass
 
 
 if __name__ == "__main__":
