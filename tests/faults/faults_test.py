@@ -101,6 +101,10 @@ def test_a_clock_that_lies_is_not_believed():
     expect(2, "compare", "device.json", "host.json", "--allow-dirty", says="device.json was timed by the device's clock and host.json by the host's")
 
 
+def test_a_program_that_is_stopped_now_and_then_still_believes_the_devices_clock():
+    expect(0, *BUILD, says="agrees", **bad_clock("stalls"))
+
+
 def test_samples_with_impossible_times_are_dropped_and_too_many_fail_the_cell():
     """Which launches are told wrong depends on how many the start takes: it may end with 3 already, and never with 0."""
     plan = experiment("some.json", scenes=["soup:300"], builders=["oibvh-multi", "perfect"], samples=5)

@@ -186,7 +186,7 @@ struct Count<Call, cl_int(Handle)> {
 
 /// Returns the clock that BVHBENCH_BAD_CLOCK makes wrong: of the device `zero`, `back` (each launch ends before it begins), `some`
 /// (one in seven does), `huge` or `slow` (a thousandth of the time passes), or that of the `host`, which steps back by a second at
-/// each look, or if `jumps` at one in fifty.
+/// each look, or if `jumps` at one in fifty; or if `stalls` goes on by two at one in three, as if the program had been stopped.
 std::string_view bad_clock()
 {
     static const char* const kind = std::getenv("BVHBENCH_BAD_CLOCK");
@@ -359,6 +359,8 @@ extern "C" int clock_gettime(clockid_t clock, timespec* time)
         time->tv_sec -= ++looks;
     else if (bad_clock() == "jumps")
         time->tv_sec -= ++looks / 50;
+    else if (bad_clock() == "stalls")
+        time->tv_sec += 2 * (++looks / 3);
     return status;
 }
 

@@ -101,7 +101,15 @@ def test_what_cannot_even_begin_ends_with_2_or_3_and_writes_nothing():
     one = ("build", "--builder", "perfect", "--samples", "1", "--json", "none.json", "--scene")
     unknown = experiment("unknown.json", scenes=["soup:10"], builders=["karas"])
     more = experiment("keys.json", scenes=["soup:10"], builders=["perfect"], sample=3)
-    for code, says, words in ((2, "no scene is called 'nonsense'", (*one, "nonsense")), (3, "gone.obj", (*one, "gone.obj")),
+    part = {"scenes": ["soup:10"], "builders": ["perfect"]}
+    pathlib.Path("twice.json").write_text(json.dumps({"experiment": "twice", "parts": [part, part]}))
+    pathlib.Path("parts.json").write_text(json.dumps({"experiment": "parts", "parts": [part]}))
+    for code, says, words in ((2, "two parts of the plan are the same", ("run", "twice.json", "--out", "none.json")),
+                              (2, "--turns is for an experiment", ("run", "parts.json", "--turns", "t:2", "--out", "none.json")),
+                              (2, "--only is i/n", ("run", "parts.json", "--only", "2/1", "--out", "none.json")),
+                              (2, "parts has fewer than 2 scenes", ("run", "parts.json", "--only", "2/2", "--out", "none.json")),
+                              (2, "need --resume", ("run", "parts.json", "--retry-failed", "--out", "none.json")),
+                              (2, "no scene is called 'nonsense'", (*one, "nonsense")), (3, "gone.obj", (*one, "gone.obj")),
                               (2, "has frames 0 to 0", (*LEAF, "--json", "none.json", "--scene", "soup:10", "--frames", "7")),
                               (2, "karas", ("run", unknown, "--out", "none.json")), (2, "sample", ("run", more, "--out", "none.json")),
                               (2, "--filter: no cell of stress matches 'zzz'",

@@ -154,6 +154,43 @@ TEST_F(ResultFileTest, AfterAKillBetweenTheFileAndItsJournalHasEachCellOnce)
     EXPECT_FALSE(file.take_part("4567"));
 }
 
+TEST_F(ResultFileTest, AfterACrashInAPartThatWasMeasuredAgainHasItsNewCellsOnly)
+{
+    const fs::path path = folder_ / "r.json";
+    leave_killed(path);
+    const std::string id = fake_run()["id"];
+    {
+        ResultFile file({path, "--out", {}}, false, Resuming{}, id);
+        file.begin({});
+        file.begin_part("4567");
+        EXPECT_FALSE(file.pass(2));
+        file.add(fake_cell("karras"));
+        file.leave();
+    }
+    const ResultFile file({path, "--out", {}}, false, Resuming{}, id);
+    const Json cells = Json::parse(file.text())["cells"];
+    ASSERT_EQ(cells.size(), 2u);
+    EXPECT_EQ(cells[1]["builder"]["name"], "karras");
+}
+
+TEST_F(ResultFileTest, ThatEndsEarlyNamesThePartThatWasMeasured)
+{
+    const fs::path path = folder_ / "r.json";
+    {
+        ResultFile file({path, "--out", {}}, false, Resuming{}, "");
+        file.begin(fake_run());
+        for (const char* key : {"0123", "4567"}) {
+            file.begin_part(key);
+            file.add(fake_cell());
+            if (std::string(key) == "0123")
+                file.end_part(1);
+        }
+    }
+    ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+    EXPECT_TRUE(file.take_part("0123"));
+    EXPECT_FALSE(file.take_part("4567"));
+}
+
 TEST_F(ResultFileTest, ThatIsRefusedLeavesAllFilesAsTheyAre)
 {
     const fs::path path = folder_ / "r.json", journal = path.string() + ".journal";
@@ -185,6 +222,23 @@ TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
     leave_killed(good);
     ResultFile file(resumed(good), false, Resuming{.is_asked = true, .retries_failed = true}, "");
     EXPECT_EQ(file.take_part("0123"), 1.5) << "it was measured";
+    Json run = fake_run();
+    run["id"] = "later";
+    {
+        ResultFile again(resumed(path), false, Resuming{.is_asked = true, .retries_failed = true},
+                         "");
+        EXPECT_FALSE(again.take_part("0123"));
+        again.begin(run);
+        again.begin_part("0123");
+        Cell failed = fake_cell();
+        failed.status = Cell::Status::failed;
+        again.add(failed);
+        again.end_part(2);
+        again.leave();
+    }
+    ResultFile next(resumed(path), false, Resuming{.is_asked = true, .retries_failed = true},
+                    "later");
+    EXPECT_EQ(next.take_part("0123"), 2) << "this run has tried it";
 }
 
 TEST_F(ResultFileTest, OfCellsThatWereNotMeasuredSaysWhy)

@@ -69,6 +69,27 @@ class Merging(unittest.TestCase):
         sources = json.loads(again.text)["merged_from"]
         self.assertEqual([source["id"] for source in sources], ["a", "z"])  # sources of one part are sorted by id
 
+    def test_unfinished_parts_of_all_are_kept(self) -> None:
+        one, two = golden(), golden("swept")
+        self.assertNotIn("unfinished_parts", json.loads(merging.merge([("a", one)]).text)["run"])
+        for document, keys in ((one, ["0123"]), (two, ["0123", "4567"])):
+            document["run"]["unfinished_parts"] = keys
+        merged = merging.merge([("a", one), ("b", two)], other_commits=True, other_devices=True).text
+        self.assertEqual(json.loads(merged)["run"]["unfinished_parts"], ["0123", "4567"])
+
+    def test_a_journal_is_read_without_cells_that_were_measured_again(self) -> None:
+        document = golden()
+        run, (first, second, third) = document["run"], document["cells"][:3]
+        lines = [{"run": run}, {"part": "a", "cell": first}, {"part": "b", "cell": first}, {"part": "b", "cell": second},
+                 {"part": "b", "keeps": 1}, {"part": "b", "cell": third}, {"part": "b", "ended": 1.5}]
+        text = "".join(json.dumps(line) + "\n" for line in lines).encode()
+        read = documents.document_of(text + b'{"part": "b", "ce', "x.journal")
+        self.assertEqual((read["run"], read["cells"]), (run, [first, first, third]))
+        with self.assertRaisesRegex(Refused, "^x.journal is no result file: it is a journal of 2 runs"):
+            documents.document_of(text + json.dumps({"run": run}).encode() + b"\n", "x.journal")
+        with self.assertRaisesRegex(Refused, "^x.journal is no result file"):
+            documents.document_of(b'{"run": {}}\n5\n', "x.journal")
+
     def test_a_run_without_a_cell_is_not_told(self) -> None:
         document = golden()
         empty = of_run({**document, "cells": []}, "empty")
