@@ -2,7 +2,9 @@
 //
 // Internal commands for those written in Python. They return device facts, the cells of experiments, and the data for drawing
 // a scene in three dimensions.
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
@@ -19,25 +21,12 @@ namespace bvhbench {
 namespace {
 
 /// Returns the cells of an experiment without loading its scenes.
-std::vector<Cell> planned_cells(const Experiment& experiment)
+std::vector<Cell> cells_of(const Experiment& experiment)
 {
     std::vector<Cell> cells;
-    for (const std::string& scene : experiment.scenes)
-        for (const BuilderChoice& builder : experiment.builders) {
-            Cell& cell = cells.emplace_back();
-            cell.experiment = experiment.name;
-            cell.scene.name = scene;
-            cell.builder = builder;
-        }
-    for (const CollideTask& task : experiment.collisions)
-        for (const PipelineChoice& pipeline : task.pipelines) {
-            Cell& cell = cells.emplace_back(planned_cell(task, pipeline));
-            if (!find_collider(cell.collider.name).needs_tree)
-                cell.builder = {.name = "none"};
-            cell.collider.keep_adjacent = cell.collider.keep_adjacent && !task.swept;
-        }
-    for (Cell& cell : cells)
-        cell.status = Cell::Status::skipped;
+    const RunPlan plan{.name = experiment.name, .parts = {experiment}};
+    for (const PlannedScene& scene : planned_scenes(plan, {}, {}, ""))
+        std::ranges::move(planned_cells(scene, {}), std::back_inserter(cells));
     return cells;
 }
 
@@ -48,7 +37,7 @@ Json expanded(const Json& described, const SceneLibrary& library)
     try {
         const Experiment experiment = parse_experiment(described.dump(), "", false);
         Json cells = Json::array(), files = Json::array();
-        const std::vector<Cell> planned = planned_cells(experiment);
+        const std::vector<Cell> planned = cells_of(experiment);
         for (const Cell& cell : planned) {
             check_powers({cell.builder, cell.collider});
             cells.push_back(Json::parse(cell_text(cell)));

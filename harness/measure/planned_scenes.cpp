@@ -7,6 +7,7 @@
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "harness/base/failure.h"
+#include "harness/measure/collide.h"
 
 namespace bvhbench {
 namespace {
@@ -91,6 +92,28 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
         if (passes(filter, scene + '/' + builder.name))
             builders.push_back(builder);
     return builders;
+}
+
+std::vector<Cell> planned_cells(const PlannedScene& planned, const CellFilter& filter)
+{
+    std::vector<Cell> cells;
+    if (planned.collides != nullptr)
+        for (const PipelineChoice& pipeline : chosen(*planned.collides, filter)) {
+            Cell& cell = cells.emplace_back(planned_cell(*planned.collides, pipeline));
+            if (!find_collider(cell.collider.name).needs_tree)
+                cell.builder = {.name = "none"};
+            cell.collider.keep_adjacent = cell.collider.keep_adjacent && !planned.collides->swept;
+        }
+    else
+        for (const BuilderChoice& builder : chosen(*planned.experiment, planned.name, filter)) {
+            Cell& cell = cells.emplace_back();
+            cell.experiment = planned.experiment->name;
+            cell.scene.name = planned.name;
+            cell.builder = builder;
+        }
+    for (Cell& cell : cells)
+        cell.status = Cell::Status::skipped;
+    return cells;
 }
 
 }  // namespace bvhbench

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/choice/run_plan.h"
+#include "harness/record/record.h"
 #include "scenes/catalog.h"
 
 namespace bvhbench {
@@ -38,9 +39,13 @@ struct PlannedScene {
     double weight;    ///< for guesses of its time: cells times triangles, as far as these are known
 };
 
-/// Returns the scenes that have a cell that matches. `settings` is what decides beside the plan; empty: there are no keys.
+/// Returns the scenes that have a cell that matches. `settings` is what decides beside the plan; empty: there are no keys. They
+/// refer to `plan`.
 std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& filter,
                                          const PlanShare& share, const std::string& settings);
+
+/// Returns the cells of the scene that match, without measurements, as skipped.
+std::vector<Cell> planned_cells(const PlannedScene& planned, const CellFilter& filter);
 
 /// Returns the experiment's builders whose cells over `scene` match; and the task's pipelines that do.
 std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::string& scene,

@@ -188,14 +188,25 @@ bool Run::scenes(const RunPlan& plan, std::span<const PlannedScene> scenes,
 void Run::measure(const PlannedScene& planned, const CellFilter& filter, Progress& progress)
 {
     const Experiment& experiment = *planned.experiment;
-    number_ = planned.number;
-    session_.read_doubles(experiment.doubles);
-    if (planned.collides != nullptr) {
-        collisions(*planned.collides, filter, progress);
+    const std::string title = experiment.name + ": " + planned.name;
+    const std::string name = "scene " + std::to_string(planned.number);
+    progress.step(title);
+    if (const std::string why = watchdog::given_up(name); !why.empty()) {
+        results_.take_rest();
+        for (Cell& cell : planned_cells(planned, filter)) {
+            cell.status = Cell::Status::failed;
+            cell.reason = why;
+            results_.add(cell);
+        }
         return;
     }
-    progress.step(experiment.name + ": " + planned.name);
-    scene(experiment, planned.name, chosen(experiment, planned.name, filter), progress);
+    const watchdog::CellScope scope(name);  // for a process that ends outside of a cell
+    number_ = planned.number;
+    session_.read_doubles(experiment.doubles);
+    if (planned.collides != nullptr)
+        collisions(*planned.collides, filter, progress);
+    else
+        scene(experiment, planned.name, chosen(experiment, planned.name, filter), progress);
 }
 
 void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
@@ -206,7 +217,6 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
     task.note = [&](const std::string& what, double share) {
         progress.note(title + ", " + what, share);
     };
-    progress.step(title);
     collide_frames(
         session_, task, order_,
         [&](std::vector<Cell>&& cells, const Found&) {

@@ -155,6 +155,13 @@ bool ResultFile::pass(std::size_t count)
     return false;
 }
 
+void ResultFile::take_rest()
+{
+    const std::lock_guard lock(mutex_);
+    take_over(there_);
+    there_.clear();
+}
+
 void ResultFile::end_part(double seconds)
 {
     const std::lock_guard lock(mutex_);

@@ -72,6 +72,9 @@ public:
     /// exist, because all of them will be measured again.
     bool pass(std::size_t count);
 
+    /// Takes over all cells of the part that exist already.
+    void take_rest();
+
     void add(const Cell& cell);
     void add(const StressCell& cell);
     /// Adds the JSON of a cell that cannot be measured.

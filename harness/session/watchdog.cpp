@@ -100,7 +100,8 @@ struct Ending {
     bool is_loss() const
     {
         const int by = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-        const bool crashed = by == SIGSEGV || by == SIGBUS || by == SIGILL || by == SIGABRT;
+        const bool crashed = by == SIGSEGV || by == SIGBUS || by == SIGILL || by == SIGABRT ||
+                             by == SIGKILL;  // by the system, which lacks memory
         return signal == 0 && (late || crashed);
     }
 
@@ -110,6 +111,8 @@ struct Ending {
         if (late)
             text << "took longer than " << limit_ms / 1000
                  << " s and was ended; --time-limit gives it more";
+        else if (WTERMSIG(status) == SIGKILL)
+            text << "was killed (signal 9), as the system does that lacks memory";
         else
             text << "crashed (signal " << WTERMSIG(status) << ')'
                  << possible_cause(WTERMSIG(status));

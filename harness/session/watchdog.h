@@ -2,7 +2,7 @@
 //
 // OpenCL 1.2 has no call that stops a kernel that never ends. Therefore measuring runs in a child process. The parent waits and
 // kills the child when a build, query or oracle takes too long. After that or a crash, it starts another child, which records the lost
-// cell as failed and measures the rest (docs/decisions/0012).
+// cell, or scene, as failed and measures the rest (docs/decisions/0012).
 #pragma once
 
 #include <functional>

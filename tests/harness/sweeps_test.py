@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-from program import KEPT, PATIENCE_S, PROGRAM, SCHEMA, SOURCE, at_work, expect, experiment, main, ours, planted_karras, run, valid, wait_until
+from program import KEPT, PATIENCE_S, PROGRAM, SCHEMA, SOURCE, at_work, children, expect, experiment, main, ours, planted_karras, run, valid, wait_until
 
 PRODUCT = ("--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--orders", "morton30,hilbert30", "--samples", "2",
            "--warm-up", "0")
@@ -104,6 +104,19 @@ def test_an_interrupt_ends_it_and_keeps_what_is_done():
     assert len(kept) == 2 and "written:" not in output, (kept, output)
     assert "finished_at" not in valid("stopped/sweep.json")["run"]
     assert not ours()
+
+
+def test_a_process_that_is_killed_for_lack_of_memory_costs_its_part():
+    words = ("sweep", "--scenes", "cloth-dress:20000:60,soup:70", "--builders", "perfect", "--samples", "1", "--out", "short")
+    with at_work(*words) as process:
+        wait_until(pathlib.Path("short/sweep.json.journal").exists)  # the device is open
+        time.sleep(0.5)  # only chooses where the kill strikes: the scene is simulated for minutes
+        os.kill(children(children(process.pid)[0])[0], signal.SIGKILL)
+        output, errors = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 0, (output, errors)
+    (first, second) = valid("short/sweep.json")["cells"]
+    assert first["status"] == "failed" and first["reason"].startswith("was killed (signal 9)"), first
+    assert second["status"] == "measured" and "2 cells: 1 measured, 0 skipped, 1 failed" in output, (second, output)
 
 
 def test_a_crash_costs_one_cell():
