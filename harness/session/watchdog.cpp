@@ -97,12 +97,12 @@ struct Ending {
     int signal = 0;     ///< signal passed on to the child; 0: none
     bool late = false;  ///< whether the child was killed at its deadline
 
-    bool is_loss() const
+    /// A kill by another process, such as the system that lacks memory, costs a cell, and ends what has none.
+    bool is_loss(bool has_cell) const
     {
         const int by = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-        const bool crashed = by == SIGSEGV || by == SIGBUS || by == SIGILL || by == SIGABRT ||
-                             by == SIGKILL;  // by the system, which lacks memory
-        return signal == 0 && (late || crashed);
+        const bool crashed = by == SIGSEGV || by == SIGBUS || by == SIGILL || by == SIGABRT;
+        return signal == 0 && (late || crashed || (by == SIGKILL && has_cell));
     }
 
     std::string reason() const
@@ -194,13 +194,14 @@ int supervised(double limit_s, const std::function<int()>& work)
         }
         if (WIFEXITED(end.status))
             return WEXITSTATUS(end.status);
-        if (!end.is_loss()) {
+        const bool has_cell = shared->cell[0] != '\0' && shared->run[0] != '\0';
+        if (!end.is_loss(has_cell)) {
             watchdog::let_signals_through();
             std::signal(WTERMSIG(end.status), SIG_DFL);
             raise(WTERMSIG(end.status));  // ends this process by the same signal
             return 128 + WTERMSIG(end.status);
         }
-        if (shared->cell[0] == '\0' || shared->run[0] == '\0')
+        if (!has_cell)
             throw Unavailable("what was to be done " + end.reason());
         continued_run = shared->run.data();
         lost_cells[shared->cell.data()] = end.reason();
