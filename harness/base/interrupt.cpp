@@ -101,6 +101,14 @@ void end_on_signals()
         sigaction(signal, &action, nullptr);
 }
 
+void ignore_signals()
+{
+    for (const int signal : ending_signals())
+        std::signal(signal, SIG_IGN);
+    while (received != 0)
+        pause();  // the sleeping thread has woken, and ends this process
+}
+
 AtSignal::AtSignal(std::function<void()> done, std::string said)
     : work(std::move(done)), kept(std::move(said))
 {

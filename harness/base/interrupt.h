@@ -18,6 +18,9 @@ std::vector<int> ending_signals();
 /// calls of this function do nothing.
 void end_on_signals();
 
+/// Ignores ending_signals() from now on. Does not return if one was received before: the process then ends as end_on_signals() says.
+void ignore_signals();
+
 /// Registers work to run when a signal ends the process, for the lifetime of this object.
 class AtSignal {
 public:

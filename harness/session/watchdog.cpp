@@ -234,8 +234,10 @@ bool can_begin_another() { return shared != nullptr; }
 
 void begin_another()
 {
-    if (shared != nullptr)
-        shared->wants_another = true;
+    if (shared == nullptr)
+        return;
+    ignore_signals();
+    shared->wants_another = true;
 }
 
 void kernels_are_in(const std::string& folder) { publish(&SharedState::kernels, folder); }

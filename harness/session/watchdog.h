@@ -38,7 +38,8 @@ void let_signals_through();
 /// True if a process waits that can start another one.
 bool can_begin_another();
 
-/// Asks for another child once this one has ended with code 0. It continues the run that resume_after_crash() names.
+/// Asks for another child once this one has ended with code 0. It continues the run that resume_after_crash() names. Signals that the
+/// parent receives from now on are passed on to that child.
 void begin_another();
 
 /// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it, unless the program's own

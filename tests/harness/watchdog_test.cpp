@@ -5,11 +5,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 
 #include "geometry/error.h"
+#include "harness/base/interrupt.h"
 #include "harness/measure/frame_oracle.h"
 
 namespace bvhbench {
@@ -102,6 +105,24 @@ TEST(Watchdog, GivesUpTheCellThatCrashesAfterAnOracle)
 {
     EXPECT_EXIT(tell_failure_of(&crash_after_an_oracle), testing::ExitedWithCode(3),
                 "^crashed .signal 11.");
+}
+
+TEST(Watchdog, PassesASignalOfTheMomentBetweenTwoChildrenOnToTheSecond)
+{
+    const auto work = [] {
+        if (!watchdog::run_id().empty()) {
+            const AtSignal kept([] {}, "kept");
+            watchdog::let_signals_through();
+            sleep(600);
+        }
+        watchdog::resume_after_crash("a run");
+        watchdog::begin_another();
+        kill(getppid(), SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the parent passes it on
+        return 0;
+    };
+    EXPECT_EXIT(std::_Exit(supervised(600, work)), testing::ExitedWithCode(128 + SIGTERM),
+                "^bvhbench: stopped; kept\n$");
 }
 
 }  // namespace
