@@ -7,7 +7,7 @@
 #include "harness/base/failure.h"
 #include "harness/base/terminal.h"
 #include "harness/base/test_hooks.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 

@@ -8,7 +8,7 @@
 #include "geometry/host_memory.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 #include "scenes/mesh_worker.h"
 
 namespace bvhbench {

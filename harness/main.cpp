@@ -6,8 +6,8 @@
 #include "harness/commands/command.h"
 #include "harness/stress/libraries.h"
 #include "plugins/worker.h"
+#include "process/child.h"
 #include "scenes/mesh_worker.h"
-#include "scenes/worker/process.h"
 
 namespace {
 

@@ -9,14 +9,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -39,32 +35,6 @@ std::string seconds_text(double seconds)
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%g s", seconds);
     return text.data();
-}
-
-/// Returns the resident memory of a process in bytes; 0 if it has ended.
-std::uint64_t resident_bytes(pid_t process)
-{
-    std::ifstream file("/proc/" + std::to_string(process) + "/statm");
-    std::uint64_t all = 0, resident = 0;
-    file >> all >> resident;
-    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
-/// Returns the processes with this variable, "NAME=value", in their environment, which those that they start inherit.
-std::vector<pid_t> processes_with(const std::string& variable)
-{
-    std::vector<pid_t> found;
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
-        const pid_t process = std::atoi(entry.path().filename().c_str());
-        std::ifstream file(process > 0 ? entry.path() / "environ" : std::filesystem::path());
-        for (std::string one; std::getline(file, one, '\0');)
-            if (one == variable) {
-                found.push_back(process);
-                break;
-            }
-    }
-    return found;
 }
 
 /// Waits until the process has ended, which is left to be told of. False if it has not after leaving_ms.
@@ -105,18 +75,17 @@ struct Ends {
 
 Process::Process(const Library& library, const Limits& limits) : library_(library), limits_(limits)
 {
-    static std::atomic<unsigned> number = 0;
-    mark_ = "BVHBENCH_OUTSIDE=" + std::to_string(getpid()) + '-' + std::to_string(++number);
     Ends input, errors;
     // A socket, because writing to one whose reader has ended raises no signal with MSG_NOSIGNAL.
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.files.data()) != 0 ||
         pipe2(errors.files.data(), O_CLOEXEC) != 0)
         fail("there is no channel to it: " + std::system_category().message(errno));
-    child_ = std::make_unique<Child>(Child::Start{.path = "/proc/self/exe",
-                                                  .words = worker_words(library),
-                                                  .environment = {parent_variable(), mark_},
-                                                  .input = input.files[1],
-                                                  .errors_to = errors.files[1]});
+    child_ =
+        std::make_unique<Child>(Child::Start{.path = "/proc/self/exe",
+                                             .words = worker_words(library),
+                                             .environment = {parent_variable(), family_.variable()},
+                                             .input = input.files[1],
+                                             .errors_to = errors.files[1]});
     to_ = input.take(0);
     errors_ = errors.take(0);
     fcntl(errors_, F_SETFL, O_NONBLOCK);
@@ -139,15 +108,7 @@ void Process::end_all()
     if (child_ == nullptr)
         return;
     child_.reset();
-    constexpr int most_rounds = 100;  // each may start others before it is killed
-    for (int round = 0; round < most_rounds; ++round) {
-        const std::vector<pid_t> left = processes_with(mark_);
-        if (left.empty())
-            return;
-        for (const pid_t process : left)
-            kill(process, SIGKILL);
-        poll(nullptr, 0, 2);
-    }
+    family_.end({});
 }
 
 void Process::fail(const std::string& what)
@@ -186,7 +147,7 @@ void Process::check_resident()
     if (const auto now = Clock::now(); now - family_looked_ > family_look) {
         family_looked_ = now;
         taken = 0;
-        for (const pid_t process : processes_with(mark_))
+        for (const pid_t process : family_.processes())
             taken += resident_bytes(process);
     }
     if (taken > limits_.host_bytes)

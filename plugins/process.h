@@ -12,7 +12,8 @@
 
 #include "geometry/error.h"
 #include "plugins/protocol.h"
-#include "scenes/worker/process.h"
+#include "process/child.h"
+#include "process/family.h"
 
 namespace bvhbench::outside {
 
@@ -62,7 +63,7 @@ private:
     Limits limits_;
     std::string call_;  ///< the last one
     int to_ = -1, errors_ = -1;
-    std::string mark_;  ///< variable that it and all that it starts have in their environment
+    ProcessFamily family_;          ///< it and all that it starts
     std::unique_ptr<Child> child_;  ///< null after it was ended
     std::chrono::steady_clock::time_point family_looked_ = std::chrono::steady_clock::now();
     std::string replies_, last_errors_;

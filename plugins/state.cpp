@@ -7,6 +7,7 @@
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
+#include "process/worker.h"
 
 namespace bvhbench::outside {
 namespace {

@@ -13,8 +13,8 @@
 #include <system_error>
 
 #include "geometry/error.h"
+#include "process/worker.h"
 #include "scenes/mesh_file.h"
-#include "scenes/worker/process.h"
 
 namespace bvhbench::outside {
 namespace {

@@ -16,7 +16,8 @@
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
-#include "scenes/worker/process.h"
+#include "process/child.h"
+#include "process/worker.h"
 
 namespace bvhbench {
 namespace {

@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "cluster", "library", "library_cluster", "scenes",
+ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "cluster", "library", "library_cluster", "process", "scenes",
          "harness", "benchmarks")
 FIRST_INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)', re.MULTILINE)
 WITH_VALUE = ("-o", "-MF", "-MT", "-MQ", "-include")

@@ -13,8 +13,9 @@
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "harness/base/build_info.h"
-#include "harness/base/interrupt.h"
-#include "scenes/worker/process.h"
+#include "process/child.h"
+#include "process/interrupt.h"
+#include "process/worker.h"
 
 namespace bvhbench {
 namespace {

@@ -4,7 +4,7 @@
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/measure/run.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 #include "scenes/face_order.h"
 
 namespace bvhbench {

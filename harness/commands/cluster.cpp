@@ -18,7 +18,7 @@
 #include "harness/record/output.h"
 #include "harness/record/pairs_file.h"
 #include "harness/record/provenance.h"
-#include "harness/session/mpirun.h"
+#include "process/mpirun.h"
 
 namespace bvhbench {
 namespace {
@@ -75,8 +75,7 @@ public:
         if (simulated_ != 0)
             return simulate(invocation);
         if (!ranks_started())
-            return run_ranks(ranks_, {invocation.words.begin() + 1, invocation.words.end()},
-                             invocation.common.time_limit_s);
+            return start_ranks(invocation);
         const std::unique_ptr<HostedRanks> ranks = start_mpi();
         int code = 0;
         std::string sentence;
@@ -97,6 +96,16 @@ public:
     }
 
 private:
+    int start_ranks(const Invocation& invocation) const
+    {
+        if (const std::string why = mpi_absent(); !why.empty())
+            throw Unavailable(why);
+        constexpr std::size_t no_terminal = 10000;  // columns: tables are not wrapped
+        const std::size_t width = terminal_width(STDOUT_FILENO);
+        return run_ranks(ranks_, {invocation.words.begin() + 1, invocation.words.end()},
+                         width == 0 ? no_terminal : width, invocation.common.time_limit_s);
+    }
+
     /// Returns the value of `Kind` with this name among `names`; throws BadUsage if there is none.
     template <class Kind, std::size_t count>
     static Kind named(const std::string& what, const std::string& name,

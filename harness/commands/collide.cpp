@@ -15,7 +15,7 @@
 #include "harness/judge/containment.h"
 #include "harness/measure/run.h"
 #include "harness/record/pairs_file.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

@@ -17,7 +17,7 @@
 #include "harness/base/terminal.h"
 #include "harness/choice/outside.h"
 #include "harness/commands/words.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

@@ -12,7 +12,7 @@
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/record/provenance.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

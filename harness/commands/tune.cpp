@@ -6,7 +6,6 @@
 #include "geometry/error.h"
 #include "harness/base/build_info.h"
 #include "harness/base/failure.h"
-#include "harness/base/interrupt.h"
 #include "harness/base/terminal.h"
 #include "harness/base/test_hooks.h"
 #include "harness/choice/choices.h"
@@ -16,6 +15,7 @@
 #include "harness/record/result_file.h"
 #include "harness/session/tuning_file.h"
 #include "harness/tune/trials.h"
+#include "process/interrupt.h"
 
 namespace bvhbench {
 namespace {

@@ -13,7 +13,7 @@
 #include "harness/base/test_hooks.h"
 #include "harness/choice/catalog.h"
 #include "harness/measure/cluster.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 

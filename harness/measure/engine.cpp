@@ -8,7 +8,7 @@
 #include "harness/base/failure.h"
 #include "harness/session/race.h"
 #include "harness/session/sampler.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

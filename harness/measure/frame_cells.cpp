@@ -13,7 +13,7 @@
 #include "harness/measure/device_verdict.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/frame_oracle.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

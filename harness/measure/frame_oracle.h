@@ -26,7 +26,7 @@
 #include "harness/base/test_hooks.h"
 #include "harness/choice/catalog.h"
 #include "harness/judge/kept_answers.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 

@@ -19,7 +19,7 @@
 #include "harness/measure/engine.h"
 #include "harness/measure/frames.h"
 #include "harness/record/provenance.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

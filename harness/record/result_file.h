@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "harness/base/interrupt.h"
 #include "harness/base/json_keys.h"
 #include "harness/record/earlier_runs.h"
 #include "harness/record/journal.h"
 #include "harness/record/output.h"
 #include "harness/record/record.h"
 #include "harness/record/result_text.h"
+#include "process/interrupt.h"
 
 namespace bvhbench {
 

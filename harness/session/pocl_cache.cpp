@@ -10,7 +10,7 @@
 #include <iostream>
 
 #include "geometry/error.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 namespace {

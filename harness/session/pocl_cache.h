@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "harness/base/interrupt.h"
+#include "process/interrupt.h"
 
 namespace bvhbench {
 

@@ -12,7 +12,7 @@
 #include "harness/base/failure.h"
 #include "harness/session/sampler.h"
 #include "harness/session/tuning_file.h"
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 namespace bvhbench {
 

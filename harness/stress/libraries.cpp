@@ -7,9 +7,10 @@
 #include "collide/oracles/exact_reference.h"
 #include "geometry/names.h"
 #include "harness/base/failure.h"
+#include "process/child.h"
+#include "process/worker.h"
 #include "scenes/mesh_file.h"
 #include "scenes/mesh_worker.h"
-#include "scenes/worker/process.h"
 
 namespace bvhbench {
 namespace {

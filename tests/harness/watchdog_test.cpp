@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "geometry/error.h"
-#include "harness/base/interrupt.h"
 #include "harness/measure/frame_oracle.h"
+#include "process/interrupt.h"
 
 namespace bvhbench {
 namespace {

@@ -2,7 +2,7 @@
 #include "scenes/mesh_worker.h"
 
 #include "helpers.h"
-#include "scenes/worker/process.h"
+#include "process/child.h"
 
 namespace bvhbench {
 namespace {

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "process/family.h"
+
 namespace bvhbench {
 
 /// Tells from the processes of this host whether mpirun hangs. A rank is a child of mpirun that runs this program.
@@ -21,7 +23,7 @@ public:
     };
 
     /// `limit_s` is 60, or less with a smaller `time_limit_s` (CommonOptions).
-    MpirunWatch(pid_t mpirun, unsigned ranks, double time_limit_s);
+    MpirunWatch(pid_t mpirun, const ProcessFamily& family, unsigned ranks, double time_limit_s);
 
     State state();
     double limit_s() const { return limit_.count(); }
@@ -34,6 +36,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     pid_t mpirun_;
+    const ProcessFamily& family_;  ///< mpirun and all that it starts
     unsigned wanted_;
     std::chrono::duration<double> limit_;
     Clock::time_point started_ = Clock::now();
@@ -41,12 +44,5 @@ private:
     std::optional<Clock::time_point>
         ended_;  ///< when mpirun or a rank was first seen to have ended
 };
-
-/// Makes this process the parent of all that its children leave behind, so that kill_descendants() finds it.
-void adopt_descendants();
-
-/// Kills all processes below this one that have not ended within `grace`. Returns when none is left, or 10 s later, because a call
-/// of a driver can keep a process.
-void end_descendants(std::chrono::seconds grace);
 
 }  // namespace bvhbench

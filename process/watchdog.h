@@ -11,7 +11,7 @@
 namespace bvhbench {
 
 /// Runs `work` in a child process and returns its exit code. Must be called while the process has a single thread. Passes
-/// ending_signals() (harness/base/interrupt.h) on to the child. If another signal than those of a crash ends the child, it ends
+/// ending_signals() (process/interrupt.h) on to the child. If another signal than those of a crash ends the child, it ends
 /// this process too.
 ///
 /// If what a watchdog::Watch limits exceeds `limit_s` or the child crashes during a cell of a run named by resume_after_crash(), another

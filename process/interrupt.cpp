@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/base/interrupt.h"
+#include "process/interrupt.h"
 
 #include <semaphore.h>
 #include <unistd.h>
@@ -9,6 +9,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <mutex>
 #include <system_error>
@@ -16,15 +17,12 @@
 #include <utility>
 #include <vector>
 
-#include "harness/base/failure.h"
-#include "harness/base/terminal.h"
-
 namespace bvhbench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Signals this close together count as one: the process group and the parent (session/watchdog.h) may each deliver it.
+/// Signals this close together count as one: the process group and the parent (process/watchdog.h) may each deliver it.
 constexpr auto as_one = std::chrono::milliseconds(200);
 
 // Global, because a signal handler can pass information in no other way.
@@ -54,8 +52,12 @@ void remember(int signal)
     mutex.lock();
     std::vector<std::string> clauses;
     for (const AtSignal* one : actions) {
-        const std::string failure = reason_of_failure(one->work);
-        const std::string& clause = failure.empty() ? one->kept : failure;
+        std::string clause = one->kept;
+        try {
+            one->work();
+        } catch (const std::exception& error) {
+            clause = error.what();
+        }
         if (!clause.empty() && std::find(clauses.begin(), clauses.end(), clause) == clauses.end())
             clauses.push_back(clause);
     }
@@ -63,7 +65,7 @@ void remember(int signal)
     for (const std::string& clause : clauses)
         sentence += "; " + clause;
     if (isatty(STDERR_FILENO) == 1)
-        std::fputs(clear_line, stderr);
+        std::fputs("\r\033[K", stderr);  // clears a line of progress
     std::cerr << sentence + '\n' << std::flush;
     _exit(128 + received);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/session/mpirun.h"
+#include "process/mpirun.h"
 
 #include <poll.h>
 #include <re2/re2.h>
@@ -14,19 +14,16 @@
 #include <iostream>
 #include <sstream>
 
-#include "cluster/mpi_ranks.h"
 #include "geometry/error.h"
-#include "harness/base/interrupt.h"
-#include "harness/base/terminal.h"
-#include "harness/session/mpirun_watch.h"
-#include "scenes/worker/process.h"
+#include "process/child.h"
+#include "process/interrupt.h"
+#include "process/mpirun_watch.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr std::string_view own_lines = "bvhbench: ";
-constexpr std::chrono::seconds grace(5);    ///< in which mpirun ends the ranks after a signal
-constexpr std::size_t no_terminal = 10000;  ///< columns: tables are not wrapped
+constexpr std::chrono::seconds grace(5);  ///< in which mpirun ends the ranks after a signal
 
 /// Returns true if a program of this name is in a folder of PATH.
 bool is_program(const std::string& name)
@@ -142,10 +139,9 @@ std::optional<unsigned> ranks_started()
     return std::nullopt;
 }
 
-int run_ranks(unsigned ranks, const std::vector<std::string>& words, double time_limit_s)
+int run_ranks(unsigned ranks, const std::vector<std::string>& words, std::size_t columns,
+              double time_limit_s)
 {
-    if (const std::string why = mpi_absent(); !why.empty())
-        throw Unavailable(why);
     if (!is_program("mpirun"))
         throw Unavailable(
             "mpirun, which starts the ranks, is in no folder of PATH (Debian: openmpi-bin)");
@@ -161,29 +157,29 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words, double time
                                         "none",
                                         std::filesystem::read_symlink("/proc/self/exe").string()};
     command.insert(command.end(), words.begin(), words.end());
-    // mpirun gives rank 0 a terminal of its own, of 80 columns.
-    const std::size_t width = terminal_width(STDOUT_FILENO);
-    const std::string columns = "COLUMNS=" + std::to_string(width == 0 ? no_terminal : width);
+    const ProcessFamily family;
     std::cout.flush();
-    adopt_descendants();
     std::optional<Child> child;
     const Child::Start start = {
         .path = command.front(),
         .words = command,
-        .environment = {columns, "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+        .environment = {family.variable(),
+                        // mpirun gives rank 0 a terminal of its own, of 80 columns.
+                        "COLUMNS=" + std::to_string(columns), "OMPI_ALLOW_RUN_AS_ROOT=1",
+                        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
                         "OMPI_MCA_btl_vader_single_copy_mechanism=none"},
         .output = Child::Stream::inherited,
         .errors = Child::Stream::captured};
     // mpirun can be deaf to the signal that setpriv sends it when this process ends.
     const AtSignal stop([&] { child.emplace(start); },
-                        [&child] {
+                        [&] {
                             child->send(SIGTERM);
-                            end_descendants(grace);
+                            family.end(grace);
                         });
-    MpirunWatch watch(child->process(), ranks, time_limit_s);
+    MpirunWatch watch(child->process(), family, ranks, time_limit_s);
     const auto state = read_all(*child, watch);
     if (state != MpirunWatch::State::ranks_run)
-        end_descendants({});
+        family.end({});
     const ProcessEnd end = child->wait();
     if (state != MpirunWatch::State::ranks_run)
         say_hung(state, watch, ranks, end.output);

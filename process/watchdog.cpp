@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "harness/session/watchdog.h"
+#include "process/watchdog.h"
 
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,11 +14,12 @@
 #include <csignal>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <new>
-#include <sstream>
 
 #include "geometry/error.h"
-#include "harness/base/interrupt.h"
+#include "process/child.h"
+#include "process/interrupt.h"
 
 namespace bvhbench {
 namespace {
@@ -93,64 +92,56 @@ std::string possible_cause(int signal)
 }
 
 struct Ending {
-    int status = 0;     ///< of waitpid
+    ProcessEnd process;
     int signal = 0;     ///< signal passed on to the child; 0: none
     bool late = false;  ///< whether the child was killed at its deadline
+
+    /// Returns the signal that ended the child; 0 if it exited.
+    int ended_by() const { return process.how == ProcessEnd::How::signalled ? process.code : 0; }
 
     /// A kill by another process, such as the system that lacks memory, costs a cell, and ends what has none.
     bool is_loss(bool has_cell) const
     {
-        const int by = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+        const int by = ended_by();
         const bool crashed = by == SIGSEGV || by == SIGBUS || by == SIGILL || by == SIGABRT;
         return signal == 0 && (late || crashed || (by == SIGKILL && has_cell));
     }
 
     std::string reason() const
     {
-        std::ostringstream text;
-        if (late)
-            text << "took longer than " << limit_ms / 1000
-                 << " s and was ended; --time-limit gives it more";
-        else if (WTERMSIG(status) == SIGKILL)
-            text << "was killed (signal 9), as the system does that lacks memory";
-        else
-            text << "crashed (signal " << WTERMSIG(status) << ')'
-                 << possible_cause(WTERMSIG(status));
-        return text.str();
+        if (late) {
+            const ProcessEnd end = {.how = ProcessEnd::How::timed_out};
+            return spelled(end, limit_ms / 1000) + " and was ended; --time-limit gives it more";
+        }
+        if (ended_by() == SIGKILL)
+            return "was killed (signal 9), as the system does that lacks memory";
+        return spelled(process, 0) + possible_cause(ended_by());
     }
 };
 
 /// Waits for the child, kills it after its deadline and passes signals on to it. `awaited` must be blocked: it has SIGCHLD and
 /// the signals to pass on.
-Ending end_of(pid_t child, const sigset_t& awaited)
+Ending end_of(Child& child, const sigset_t& awaited)
 {
     constexpr timespec moment = {0, 100'000'000};
     Ending end;
-    while (waitpid(child, &end.status, WNOHANG) != child) {
+    for (;;) {
+        if (const auto ended = child.end()) {
+            end.process = *ended;
+            return end;
+        }
         long until = shared->until_ms;
         if (end.signal == 0 && until > 0 && now_ms() > until &&
             shared->until_ms.compare_exchange_strong(until, over)) {
             end.late = true;
-            kill(child, SIGKILL);
+            child.send(SIGKILL);
         }
         const int signal = sigtimedwait(&awaited, nullptr, &moment);
         if (signal > 0 && signal != SIGCHLD) {
             end.signal = signal;
-            kill(child, signal);
+            child.send(signal);
         }
     }
-    return end;
-}
-
-void begin_child(pid_t parent)
-{
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)  // the parent ended before prctl
-        _exit(128 + SIGKILL);
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    std::signal(SIGABRT, note_who_aborts);
-    end_on_signals();
 }
 
 }  // namespace
@@ -175,31 +166,31 @@ int supervised(double limit_s, const std::function<int()>& work)
     sigprocmask(SIG_BLOCK, &awaited, &unblocked);
     for (int held_back = 0;;) {
         shared = new (memory) SharedState;
-        const pid_t self = getpid(), child = fork();
-        if (child < 0)
-            throw Unavailable("out of host memory: there is no room for another process");
-        if (child == 0) {
-            begin_child(self);
+        const std::unique_ptr<Child> child = Child::forked();
+        if (child == nullptr) {
+            std::signal(SIGABRT, note_who_aborts);
+            end_on_signals();
             if (continued_run.empty())
                 watchdog::let_signals_through();
             return work();
         }
         if (held_back != 0)
-            kill(child, held_back);
-        const Ending end = end_of(child, awaited);
-        if (shared->wants_another && WIFEXITED(end.status) && WEXITSTATUS(end.status) == 0) {
+            child->send(held_back);
+        const Ending end = end_of(*child, awaited);
+        const int by = end.ended_by();
+        if (shared->wants_another && by == 0 && end.process.code == 0) {
             continued_run = shared->run.data();
             held_back = end.signal;  // it came when the child was about to end
             continue;
         }
-        if (WIFEXITED(end.status))
-            return WEXITSTATUS(end.status);
+        if (by == 0)
+            return end.process.code;
         const bool has_cell = shared->cell[0] != '\0' && shared->run[0] != '\0';
         if (!end.is_loss(has_cell)) {
             watchdog::let_signals_through();
-            std::signal(WTERMSIG(end.status), SIG_DFL);
-            raise(WTERMSIG(end.status));  // ends this process by the same signal
-            return 128 + WTERMSIG(end.status);
+            std::signal(by, SIG_DFL);
+            raise(by);  // ends this process by the same signal
+            return 128 + by;
         }
         if (!has_cell)
             throw Unavailable("what was to be done " + end.reason());

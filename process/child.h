@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Child processes: Python, and this program itself for tasks that may crash or use too much memory.
+// Child processes: other programs, this program itself for tasks that may crash or use too much memory, and forks of it.
 #pragma once
 
 #include <sys/types.h>
 
+#include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace bvhbench {
@@ -40,6 +41,10 @@ public:
     /// Starts the process. Throws Unavailable if it cannot be started.
     explicit Child(Start start);
     ~Child();
+
+    /// Forks this process, which must have a single thread. Returns the child; in the child itself, which ends with this process and
+    /// leaves no core file, null. Throws Unavailable if there is no room for another process.
+    static std::unique_ptr<Child> forked();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
@@ -56,7 +61,13 @@ public:
     /// Waits until the process has ended.
     ProcessEnd wait();
 
+    /// Returns how the process ended; nothing if it has not.
+    std::optional<ProcessEnd> end();
+
 private:
+    explicit Child(pid_t process) : process_(process) {}
+    ProcessEnd end_of(int status);
+
     pid_t process_ = 0;
     int reader_ = -1;
     std::string text_;
@@ -70,39 +81,10 @@ ProcessEnd run_process(const std::vector<std::string>& command, double time_limi
 /// Returns the variable, "NAME=value", that makes a child of this program end with this process.
 std::string parent_variable();
 
-/// A file in memory that child processes can read and write by its path while this object exists.
-class MemoryFile {
-public:
-    /// Throws Unavailable if there is no room for the bytes.
-    explicit MemoryFile(std::string_view bytes = {});
-    ~MemoryFile();
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-
-    std::string path() const;
-
-    /// Returns the size in bytes, which a child may have changed.
-    std::size_t size() const;
-
-    /// Reads `bytes` from the front of the file. False if there are fewer.
-    bool read(void* to, std::size_t bytes) const;
-
-private:
-    int file_;
-};
-
 /// Makes this process end with its parent, if the parent asked for it. Called at the beginning of main.
 void end_with_parent();
 
-/// First call of a worker: makes it end with its parent, disables core files, and limits its memory to `memory_bytes`, or to
-/// host_memory_left() if that is less. Throws Unavailable if the worker already has more.
-void limit_worker(std::size_t memory_bytes);
-
-/// Reserves standard output for the worker's answer: other output to it or to standard error is discarded from now on. Returns
-/// the file descriptor for the answer.
-int take_standard_output();
-
-/// Writes all bytes, also when signals interrupt it. False if they could not be written.
-bool write_all(int file, std::string_view bytes);
+/// Makes a crash of this process leave no core file.
+void leave_no_core();
 
 }  // namespace bvhbench

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/worker/process.h"
+#include "process/child.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,12 +16,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
 #include "geometry/error.h"
-#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
@@ -53,6 +49,14 @@ std::vector<std::string> environment_under(std::vector<std::string> variables)
                          [&](const std::string& other) { return name(other) == name(*own); }))
             variables.emplace_back(*own);
     return variables;
+}
+
+/// Makes this process end with its parent, which was `process`.
+void end_with(pid_t process)
+{
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != process)  // the parent ended before prctl
+        _exit(128 + SIGKILL);
 }
 
 /// Reads to the end of the pipe. False if the time `until` comes first.
@@ -121,13 +125,26 @@ Child::Child(Start start)
     throw Unavailable(start.path + " cannot be started: " + std::system_category().message(error));
 }
 
+std::unique_ptr<Child> Child::forked()
+{
+    const pid_t self = getpid(), process = fork();
+    if (process < 0)
+        throw Unavailable("out of host memory: there is no room for another process");
+    if (process > 0)
+        return std::unique_ptr<Child>(new Child(process));
+    end_with(self);
+    leave_no_core();
+    return nullptr;
+}
+
 Child::~Child()
 {
     if (process_ > 0) {
         send(SIGKILL);
         wait();
     }
-    close(reader_);
+    if (reader_ >= 0)
+        close(reader_);
 }
 
 bool Child::take()
@@ -150,6 +167,19 @@ ProcessEnd Child::wait()
     int status = 0;
     while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
+    return end_of(status);
+}
+
+std::optional<ProcessEnd> Child::end()
+{
+    int status = 0;
+    if (waitpid(process_, &status, WNOHANG) != process_)
+        return std::nullopt;
+    return end_of(status);
+}
+
+ProcessEnd Child::end_of(int status)
+{
     process_ = 0;
     if (WIFSIGNALED(status))
         return {ProcessEnd::How::signalled, WTERMSIG(status), std::move(text_)};
@@ -183,75 +213,13 @@ void end_with_parent()
         return;
     const long process = std::strtol(wanted, nullptr, 10);
     unsetenv(parent);  // not meant for this process's children
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != process)  // the parent ended before prctl
-        _exit(128 + SIGKILL);
+    end_with(static_cast<pid_t>(process));
 }
 
-void limit_worker(std::size_t memory_bytes)
+void leave_no_core()
 {
-    end_with_parent();
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
-    limit_host_memory(std::min<std::uint64_t>(memory_bytes, host_memory_left()));
-}
-
-int take_standard_output()
-{
-    const int answer = dup(STDOUT_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    return answer;
-}
-
-MemoryFile::MemoryFile(std::string_view bytes) : file_(memfd_create("bvhbench", MFD_CLOEXEC))
-{
-    if (file_ >= 0 && write_all(file_, bytes))
-        return;
-    const std::string reason = std::strerror(errno);
-    close(file_);
-    throw Unavailable("no file can be made in memory: " + reason);
-}
-
-MemoryFile::~MemoryFile() { close(file_); }
-
-std::string MemoryFile::path() const
-{
-    return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
-}
-
-std::size_t MemoryFile::size() const
-{
-    struct stat facts = {};
-    return fstat(file_, &facts) == 0 ? static_cast<std::size_t>(facts.st_size) : 0;
-}
-
-bool MemoryFile::read(void* to, std::size_t bytes) const
-{
-    for (std::size_t done = 0; done < bytes;) {
-        const ssize_t count =
-            pread(file_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(done));
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count <= 0)
-            return false;
-        done += static_cast<std::size_t>(count);
-    }
-    return true;
-}
-
-bool write_all(int file, std::string_view bytes)
-{
-    while (!bytes.empty()) {
-        const ssize_t count = write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count <= 0)
-            return false;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return true;
 }
 
 }  // namespace bvhbench
