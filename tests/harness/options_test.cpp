@@ -215,16 +215,15 @@ TEST(Catalog, ListsEachOnceAndAnswersAnUnknownNameWithThoseThereAre)
 {
     expect_whole(builder_catalog(), find_builder);
     expect_whole(collider_catalog(), find_collider);
-    EXPECT_TRUE(refusal_of([] {
-                    find_collider("leafs");
-                }).ends_with(", embree, embree-refit, fcl, fcl-refit; did you mean 'leaf'?"));
-    const std::string said = refusal_of([] { find_builder("oibvh"); });
-    EXPECT_TRUE(said.starts_with(
-        "no builder is called 'oibvh'; there are: perfect, karras, apetrei, apetrei-fused, "
-        "lbvh-levels, hploc, oibvh-single, oibvh-single-printed, oibvh-multi, oibvh-wide4, "
-        "oibvh-wide8, "
-        "oibvh-host, oibvh-reference, radix-reference, hploc-reference, "))
-        << said;
+    const std::string said = refusal_of([] { find_collider("leafs"); });
+    EXPECT_TRUE(said.starts_with("no collider is called 'leafs'; ")) << said;
+    EXPECT_TRUE(said.ends_with("; did you mean 'leaf'?")) << said;
+    std::string names;
+    for (const BuilderEntry& entry : builder_catalog())
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    EXPECT_GT(builder_catalog().size(), 15u);
+    EXPECT_EQ(refusal_of([] { find_builder("oibvh"); }),
+              "no builder is called 'oibvh'; there are: " + names);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ from program import PROGRAM, expect, experiment, main, only, valid
 
 PERFECT = "build --builder perfect --scene soup:5"
 SENTENCES = (
-    (2, "", "name a command: list, scene, build"),
+    (2, "", "name a command: list, scene, "),
     (2, "paint", "paint"),
     (2, "list colours", "there are: builders, colliders, narrow, orders, formats, skips, tuning, scenes, devices, accuracy, experiments"),
     (2, "build --builder x --scene soup:5", "there are: perfect, "),
@@ -68,10 +68,10 @@ def test_combinations_of_names_are_cells_of_one_run():
 
 
 def test_lists_put_the_name_first():
+    known = ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single", "oibvh-single-printed", "oibvh-multi",
+             "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference", "radix-reference", "hploc-reference"]
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:15] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single",
-                          "oibvh-single-printed", "oibvh-multi", "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference",
-                          "radix-reference", "hploc-reference"], first
+    assert [name for name in first if name in known] == known, first  # whatever docs/adding-a-builder.md adds between them
 
 
 def on_a_terminal(*words: str) -> list[str]:
