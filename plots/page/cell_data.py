@@ -3,6 +3,7 @@ answer the same question are comparable: the data say which are on a Pareto fron
 
 Times are nanoseconds: 10th percentile, median, 90th percentile. A cell with a wrong answer, or without one, has no times."""
 import re
+from collections.abc import Iterable
 from typing import Any
 
 from ..figures import accuracy, accuracy_narrow
@@ -76,13 +77,13 @@ def library_of(cell: Cell) -> str | None:
     return next((LIBRARIES[word] for word in first if word in LIBRARIES), None)
 
 
-def table(title: str, columns: list[tuple[str, str]], facets: tuple[str, ...], rows: list[list[Any]], cells: list[Cell],
-          note: str) -> dict[str, Any]:
-    """Returns a table with these columns (label and kind), rows, and the cell that each row is of. Rows can be chosen by facets."""
+def table(title: str, columns: Iterable[tuple[Any, ...]], facets: tuple[str, ...], rows: list[list[Any]], note: str = "",
+          libraries: Iterable[str | None] = ()) -> dict[str, Any]:
+    """Returns a table with these columns (label, kind, and perhaps more of it) and rows. Rows can be chosen by facets. `libraries` are
+    those that rows are of."""
     return {"title": title, "cells": None, "rows": rows, "note": note,
-            "libraries": [row for row, cell in enumerate(cells) if library_of(cell)],
-            "columns": [{"label": label, "kind": kind, "facet": label in facets, **({"unit": "ms"} if kind == "time" else {})}
-                        for label, kind in columns]}
+            "libraries": [row for row, library in enumerate(libraries) if library],
+            "columns": [{"label": label, "kind": kind, "facet": label in facets} | (more[0] if more else {}) for label, kind, *more in columns]}
 
 
 def times_of(cell: Cell) -> dict[str, list[float]]:

@@ -6,6 +6,7 @@ from typing import Any
 from ..files import documents
 from ..read import ranking_text, results
 from ..read.cells import Cell
+from ..words.tables import counted
 from .cell_data import scene_name, state_of, who
 
 
@@ -93,10 +94,12 @@ def view_of(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, bytes]]:
 
 
 def facts_of_view(view: dict[str, Any], cell: Cell) -> dict[str, Any]:
-    run, levels = view["run"], [{"count": len(level["boxes"]) // 6, "leaves": level["leaves"]} for level in view["levels"]]
-    return {"scene": scene_name(cell), "frame": cell.frame, "who": who(cell), "triangles": len(view["faces"]) // 3,
-            "state": state_of(cell), "against": cell.check.get("against", ""), "why": cell.check.get("detail", ""),
-            "hashes": {key: value for key, value in cell.check.items() if key.endswith("_hash")},
-            "device": run["device"]["name"], "driver": run["device"]["driver"], "commit": run["program"]["commit"],
-            "dirty": run["program"]["dirty"], "pairs": len(view["pairs"]) // 2, "contacts": len(view["contacts"]) // 2,
-            "levels": levels}
+    run, check, frame = view["run"], cell.check, f", frame {cell.frame}" if cell.frame else ""
+    pairs, contacts = (len(view[name]) // 2 for name in ("pairs", "contacts"))
+    why = f": {check['detail']}" if check.get("detail") else ""
+    said = (f" with {check.get('against', '')}{why}. {counted(pairs, 'pair')} of triangles have boxes that overlap, "
+            f"{contacts:,} intersect; neighbours that share a vertex are left out. Built and queried on "
+            f"{run['device']['name']}, commit {run['program']['commit'][:10]}{' with local changes' if run['program']['dirty'] else ''}.")
+    return {"scene": scene_name(cell), "title": f"{scene_name(cell)}{frame}: {counted(len(view['faces']) // 3, 'triangle')}, {who(cell)}",
+            "state": state_of(cell), "said": said,
+            "levels": [{"count": len(level["boxes"]) // 6, "leaves": level["leaves"]} for level in view["levels"]]}

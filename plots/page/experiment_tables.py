@@ -7,11 +7,12 @@ from ..read import builder_rows, results, savings
 from ..read.cells import Cell
 from . import cell_data
 
-SKIPS = [("scene", "text"), ("rule", "text"), ("pipeline", "text"), ("skipped", "text"), ("with", "time"), ("without", "time"),
+MS = {"unit": "ms"}
+SKIPS = [("scene", "text"), ("rule", "text"), ("pipeline", "text"), ("skipped", "text"), ("with", "time", MS), ("without", "time", MS),
          ("without over with", "number"), *((f"avoided {amount}", "count") for amount in savings.AMOUNTS), ("answers", "text")]
 BUILDERS = [("scene", "text"), ("builder", "text"), ("on", "text"), ("million triangles a second", "number"),
             ("of the hierarchy", "number"), ("peak MB", "number"), ("reserved MB", "number"), ("tree MB", "number"),
-            ("surface area cost", "number"), ("end-point overlap", "number"), ("query", "time"), ("frame", "time"),
+            ("surface area cost", "number"), ("end-point overlap", "number"), ("query", "time", MS), ("frame", "time", MS),
             ("collider", "text")]
 
 
@@ -21,7 +22,7 @@ def skips(cells: Iterable[Cell]) -> list[dict[str, Any]]:
     note = ("Frames of a scene together: times are means of medians, amounts are added up. Avoided: without the rule minus "
             "with it. Forced: the device does without the rule, and it was used all the same.")
     return [cell_data.table("Rules that skip work", SKIPS, ("scene", "rule", "pipeline", "skipped"),
-                            [skip_row(one) for one in found], [one.first for one in found], note)] if found else []
+                            [skip_row(one) for one in found], note, [cell_data.library_of(one.first) for one in found])] if found else []
 
 
 def skip_row(one: savings.Saving) -> list[Any]:
@@ -38,7 +39,7 @@ def builders(run: results.Run) -> list[dict[str, Any]]:
     note = ("Peak: the most memory of the device that the cell held at once. Query and frame: medians with the collider whose "
             "frame is the soonest. docs/builders.md says what each column is.")
     return [cell_data.table("Each builder, with its best collider", BUILDERS, ("scene", "builder", "on", "collider"),
-                            [builder_row(row) for row in rows], [row.build for row in rows], note)] if rows else []
+                            [builder_row(row) for row in rows], note, [cell_data.library_of(row.build) for row in rows])] if rows else []
 
 
 def builder_row(row: builder_rows.Row) -> list[Any]:

@@ -178,11 +178,10 @@ def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] 
         return None
     is_needed = {1: any(row[1] not in row[0] for row in rows)}  # most files are named after their experiment
     kept = [k for k, _ in enumerate(COLUMNS) if is_needed.get(k, True) and any(row[k] not in (None, "") for row in rows)]
-    more = {"file": {"links": names}, "time": {"links": links, "unit": "µs"}}
+    more = {"file": ({"links": names},), "time": ({"links": links, "unit": "µs"},)}
     starred = any(row[2] and " *" in row[2] for row in rows)
     note = ("Time: the lowest, a mean over frames of medians, by the wall clock where a method from outside is compared. Ratio: the "
             "next over it. Beyond noise: intervals of the medians do not overlap. What was wrong, or lacks a frame, has no place.")
-    return {"title": "The best of each scene", "cells": None, "note": note + (f" {cell_data.STAR}." if starred else ""),
-            "rows": [[row[k] for k in kept] for row in rows],
-            "columns": [{"label": label, "kind": kind, "facet": label in FACETS, **more.get(label, {})}
-                        for k, (label, kind) in enumerate(COLUMNS) if k in kept]}
+    columns = [(*COLUMNS[k], *more.get(COLUMNS[k][0], ())) for k in kept]
+    return cell_data.table("The best of each scene", columns, FACETS, [[row[k] for k in kept] for row in rows],
+                           note + (f" {cell_data.STAR}." if starred else ""))

@@ -14,7 +14,7 @@ from ..read import results
 
 PARTS = pathlib.Path(__file__).resolve().parent / "web"
 STYLES = ("base.css", "tables.css", "charts.css", "samples.css", "view.css")
-SCRIPTS = ("unpack.js", "format.js", "theme.js", "table.js", "axes.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
+SCRIPTS = ("unpack.js", "format.js", "theme.js", "table.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
            "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "view.js", "page.js")
 DEBIAN = pathlib.Path("/usr/share")
 

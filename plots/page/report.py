@@ -14,36 +14,48 @@ from .tables import TO_SAMPLES
 
 LEADS_ON = "A time stands beside its verdict, and leads to its raw samples; so does a mark of a chart."
 IN_BRIEF = "A time stands beside its verdict; the result files have the raw samples."
-OF_A_FILE = ("cells", "bars", "looks", "tables", "findings")  # what the overview does not need of a file's data
+STATES = ("agrees", "counted", "not_checked", "holds", "refused", "differs", "broken", "failed", "skipped")
+BAD = STATES[STATES.index("differs"):]
+RUNS = [("experiments", "text"), ("cells", "count"), ("wrong or missing", "text"),
+        *((name, "text") for name in ("device", "driver", "commit", "options", "machine", "processor", "started"))]
+DEVICE = 4  # the column of a row of runs_table
 
 
 def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell]) -> dict[str, Any]:
-    run, reader = document["run"], results.Run(path, document)
+    reader, stress = results.Run(path, document), document.get("stress", [])
     cells = [cell_data.cell_data(cell, reader.copy_rate_of(cell)) for cell in all_cells]
     cell_data.mark_fronts(cells)
-    stress = document.get("stress", [])
     by_library = Counter((cell["library"], cell["state"]) for cell in cells) + stress_data.states_of(stress)
-    found = findings.findings_of(all_cells) + ([stress_data.finding_of(stress)] if stress else [])
-    return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
-            "bars": cell_data.bars_of(cells), "looks": plot_looks.looks_of(cells),
+    return {"cells": cells, "bars": cell_data.bars_of(cells), "looks": plot_looks.looks_of(cells), "star": cell_data.STAR,
             "tables": experiment_tables.skips(all_cells) + experiment_tables.builders(reader) + tables.tables_of(cells)
-            + stress_data.tables_of(stress), "states": tallied(by_library),
-            "findings": found, "star": cell_data.STAR,
-            "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
-            "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
-            "processor": run["host"]["cpu"], "commit": run["program"]["commit"][:10], "started": run["started_at"],
-            "options": " ".join(run["command"][1:])}
+            + stress_data.tables_of(stress), "states": tallied(by_library)}
 
 
-def tallied(by_library: Counter[tuple[str | None, str]]) -> dict[str, dict[str, Any]]:
-    """Returns the number of cells, or of findings of stress, in each state, and how many of them are each library's."""
-    states: dict[str, dict[str, Any]] = {}
-    for (library, state), count in by_library.items():
-        here = states.setdefault(state, {"count": 0, "libraries": {}})
-        here["count"] += count
-        if library:
-            here["libraries"][library] = count
-    return states
+def tallied(by_library: Counter[tuple[str | None, str]]) -> list[dict[str, str]]:
+    """Returns the number of cells, or of findings of stress, in each state, and how many of the bad ones are each library's."""
+    tally = []
+    for state in STATES:
+        counts = Counter({library: count for (library, other), count in by_library.items() if other == state})
+        theirs = [(library, count) for library, count in counts.most_common() if library and state in BAD]
+        whose = "all" if not counts[None] else f"{counts.total() - counts[None]:,}"
+        named = ", ".join(f"{library} {count:,}" for library, count in theirs)
+        if counts.total():
+            tally.append({"state": state, "count": f"{counts.total():,}", "of": f", {whose} of libraries: {named}" if named else ""})
+    return tally
+
+
+def run_row(title: str, document: dict[str, Any], states: list[dict[str, str]]) -> list[Any]:
+    """Returns the file's row of runs_table."""
+    run, cells = document["run"], document["cells"]
+    bad = "; ".join(f"{one['count']} {one['state']}{one['of']}" for one in states if one["state"] in BAD)
+    return [title, ", ".join(dict.fromkeys(cell["experiment"] for cell in cells)) or "stress", len(cells) or len(document.get("stress", [])),
+            bad or None, run["device"]["name"], run["device"]["driver"], run["program"]["commit"][:10], " ".join(run["command"][1:]),
+            run["host"]["name"], run["host"]["cpu"], run["started_at"]]
+
+
+def runs_table(rows: list[list[Any]]) -> dict[str, Any]:
+    links = {"links": [f"#file-{number}" for number, _ in enumerate(rows)]}
+    return cell_data.table("What was run on what", [("file", "text", links), *RUNS], ("device", "experiments", "commit"), rows)
 
 
 def text_of(name: str) -> str:
@@ -77,22 +89,24 @@ def in_brief(path: pathlib.Path, data: dict[str, Any]) -> tuple[dict[str, Any], 
 
 def make(files: list[pathlib.Path], views: list[pathlib.Path], is_brief: bool) -> tuple[str, bool]:
     """Returns the page and whether an answer was wrong. Raises results.Refused."""
-    blobs, sections, is_wrong, summary, found = [], [], False, [], []
-    for number, (path, title) in enumerate(zip(files, titles_of(files), strict=True)):
+    blobs, sections, is_wrong, runs, found = [], [], False, [], []
+    titles = titles_of(files)
+    for number, (path, title) in enumerate(zip(files, titles, strict=True)):
         document = results.document_of(path)
         cells = [Cell(cell) for cell in document["cells"]]
+        stress = document.get("stress", [])
         try:
-            data = file_data(path, document, cells) | {"title": title}
+            data = file_data(path, document, cells)
+            answers = findings.findings_of(cells) + ([stress_data.finding_of(stress)] if stress else [])
             shown, pictures = in_brief(path, data) if is_brief else (data, [])
             blobs.append(html.json_blob(f"file-{number}", shown))
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
-        is_wrong |= "differs" in data["states"]
-        summary.append({key: value for key, value in data.items() if key not in OF_A_FILE}
-                       | {"count": len(data["cells"]) or len(document.get("stress", []))})
-        found.append((title, data["findings"]))
+        is_wrong |= any(one["state"] == "differs" for one in data["states"])
+        runs.append(run_row(title, document, data["states"]))
+        found.append((title, answers))
         sections.append(html.section(number, title, circumstances.sentence_of(document),
-                                            circumstances.warnings_of(document), circumstances.facts_of(document), data["findings"]))
+                                     circumstances.warnings_of(document), circumstances.facts_of(document), answers))
         if is_brief:
             blobs.append(html.json_blob(f"pictures-{number}", pictures))
         else:
@@ -104,13 +118,13 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path], is_brief: bool) -
         scenes.append(facts)
         blobs += [html.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]
     best = findings.best_table(found)
-    head = {"files": summary, "views": scenes, "stages": plot_looks.stage_looks(), "dark": plot_looks.IN_THE_DARK,
-            "best": unlinked(best) if best and is_brief else best}
-    title = "bvhbench report" + (f": {', '.join(titles_of(files)[:4])}" if files else "")
+    overview = ([unlinked(best) if is_brief else best] if best else []) + ([runs_table(runs)] if runs else [])
+    head = {"titles": titles, "tables": overview, "views": scenes, "stages": plot_looks.stage_looks(), "dark": plot_looks.IN_THE_DARK}
+    title = "bvhbench report" + (f": {', '.join(titles[:4])}" if files else "")
     title += f" and {len(files) - 4} more" if len(files) > 4 else ""
     blobs.insert(0, html.json_blob("head", head))
     libraries = html.libraries(charts=not is_brief, scenes=bool(scenes))
-    said = html.devices([file["device"] for file in summary]) + html.findings(found)
+    said = html.devices([row[DEVICE] for row in runs]) + html.findings(found)
     return html.page(title, said, IN_BRIEF if is_brief else LEADS_ON, sections, blobs + libraries), is_wrong
 
 

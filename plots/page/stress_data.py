@@ -7,6 +7,7 @@ from typing import Any
 from ..console import stress_table as words
 from ..read.cells import grouped
 from ..words.tables import counted
+from .cell_data import table
 
 FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
 FACETS = ("family", "whose", "kind", "invariant")
@@ -54,38 +55,35 @@ def bad_table(stress: list[Found]) -> dict[str, Any] | None:
              finding.get("detail")] for cell, name, finding in bad]
     columns = [("family", "text"), ("scene", "text"), ("system", "text"), ("whose", "text"), ("invariant", "text"),
                ("verdict", "state"), ("detail", "text")]
-    return table("Broken or refused", rows, columns, [cell for cell, _, _ in bad]) if bad else None
+    return table("Broken or refused", columns, FACETS, rows, libraries=[cell.get("library") for cell, _, _ in bad]) if bad else None
+
+
+def invariants_of(stress: list[Found]) -> list[str]:
+    return [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
 
 
 def cells_table(stress: list[Found]) -> dict[str, Any]:
-    there = [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
+    there = invariants_of(stress)
     rows = [[cell["family"], cell["scene"], cell["system"], cell.get("library") or "ours", cell["kind"],
              *(shown(name, cell["findings"].get(name)) for name in there),
              "; ".join(f"{name}: {finding['detail']}" for name, finding in cell["findings"].items() if finding.get("detail"))
              or None] for cell in stress]
     columns = [*((label, "text") for label in ("family", "scene", "system", "whose", "kind")),
                *((name, "state") for name in there), ("detail", "text")]
-    return table("Stress", rows, columns, stress) | {"folded": True}
-
-
-def table(title: str, rows: list[list[Any]], columns: list[tuple[str, str]], cells: list[Found]) -> dict[str, Any]:
-    """Returns a table; `cells` tell which rows are a library's."""
-    return {"title": title, "cells": None, "note": "", "rows": rows,
-            "libraries": [place for place, cell in enumerate(cells) if cell.get("library")],
-            "columns": [{"label": label, "kind": kind, "facet": label in FACETS} for label, kind in columns]}
+    return table("Stress", columns, FACETS, rows, libraries=[cell.get("library") for cell in stress]) | {"folded": True}
 
 
 def systems_table(stress: list[Found]) -> dict[str, Any]:
     """Returns one row for each system: its findings over all scenes, added up; first the systems of which one does not hold."""
-    there = [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
+    there = invariants_of(stress)
     systems = grouped(sorted(stress, key=is_wholly_right(stress)), lambda cell: cell["system"])
     rows = []
     for system, cells in systems.items():
         own = {name: [cell["findings"][name] for cell in cells if name in cell["findings"]] for name in there}
         rows.append([system, cells[-1].get("library") or "ours", len(cells),
                      *(shown_of(found) if found else None for found in own.values())])
-    return table("By system", rows, [("system", "text"), ("whose", "text"), ("scenes", "count"),
-                                     *((name, "state") for name in there)], [cells[-1] for cells in systems.values()])
+    columns = [("system", "text"), ("whose", "text"), ("scenes", "count"), *((name, "state") for name in there)]
+    return table("By system", columns, FACETS, rows, libraries=[cells[-1].get("library") for cells in systems.values()])
 
 
 def is_wholly_right(stress: list[Found]) -> Callable[[Found], bool]:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..read.cells import grouped, median
-from .cell_data import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES
+from .cell_data import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES, table as table_of
 from .plot_looks import stage_looks
 
 STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
@@ -48,20 +48,14 @@ class Table:
             self.add(name.removesuffix("_count").replace("_", " "), kind, lambda data, name=name: data["counters"].get(name))
 
     def data(self) -> dict[str, Any]:
-        return {"title": self.title, "note": noted(self.note, self.cells), "libraries": of_libraries(self.cells),
-                "columns": [column for column, _ in self.columns],
-                "cells": [place for place, _ in self.cells],
-                "rows": [list(row) for row in zip(*(values for _, values in self.columns), strict=True)]}
+        rows = [list(row) for row in zip(*(values for _, values in self.columns), strict=True)]
+        made = table_of(self.title, (), (), rows, noted(self.note, self.cells), [data["library"] for _, data in self.cells])
+        return made | {"columns": [column for column, _ in self.columns], "cells": [place for place, _ in self.cells]}
 
 
 def noted(note: str, cells: Cells) -> str:
     """Returns the note, with the explanation of the star if a scene is a stand-in."""
     return f"{note} {STAR}.".lstrip() if any(data["is_stand_in"] for _, data in cells) else note
-
-
-def of_libraries(cells: Cells) -> list[int]:
-    """Returns the rows that are a library's."""
-    return [row for row, (_, data) in enumerate(cells) if data["library"]]
 
 
 def begin(title: str, cells: Cells, called: str, note: str = "") -> Table:
@@ -93,10 +87,11 @@ def summary_table(cells: Cells) -> dict[str, Any]:
     """Returns a table with one row for each scene and pipeline: means over frames of their medians, as in the paper's tables."""
     groups = grouped(cells, lambda placed: tuple(placed[1][key] for key in ("experiment", "scene", "asked", "who")))
     unit, scale = unit_of(cells)
+    slowest: list[int] = []
     columns = [("scene", "text"), ("pipeline", "text"), ("verdict", "state"), ("asked for", "text"), ("frames", "count"),
-               ("mean of medians", "time"), ("slowest frame", "time"), ("pairs a frame", "number"),
-               ("contacts a frame", "number")]
-    rows, slowest = [], []
+               ("mean of medians", "time", {"unit": unit}), ("slowest frame", "time", {"unit": unit, "cells": slowest, "stage": WHOLE}),
+               ("pairs a frame", "number"), ("contacts a frame", "number")]
+    rows = []
     for (_, scene, question, name), placed in groups.items():
         group = [data for _, data in placed]
         slowest.append(max(placed, key=lambda one: one[1]["times"].get(WHOLE, [0, 0])[1])[0])
@@ -112,12 +107,9 @@ def summary_table(cells: Cells) -> dict[str, Any]:
         rows.append([scene, name, bad or group[0]["state"], question, len(group),
                      statistics.fmean(medians) if is_whole else None, max(medians) if is_whole else None,
                      mean("pairs_count"), mean("contacts_count")])
-    return {"title": "Whole frames by scene", "cells": None, "rows": rows,
-            "note": noted("Means over all frames of a scene; of a pipeline that lacks one there is none.", cells),
-            "libraries": of_libraries([placed[0] for placed in groups.values()]),
-            "columns": [{"label": label, "kind": kind, "facet": label in ("scene", "pipeline", "verdict", "asked for"),
-                         **({"unit": unit} if kind == "time" else {}),
-                         **({"cells": slowest, "stage": WHOLE} if label == "slowest frame" else {})} for label, kind in columns]}
+    return table_of("Whole frames by scene", columns, ("scene", "pipeline", "verdict", "asked for"), rows,
+                    noted("Means over all frames of a scene; of a pipeline that lacks one there is none.", cells),
+                    [placed[0][1]["library"] for placed in groups.values()])
 
 
 TREE = ["sah_cost", "epo", "sibling_overlap", "depth_max", "nodes_count", "tree_bytes"]

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Tests a report in a browser: charts draw the files' values, tables sort and filter, numbers link to their samples, and missing
 times are marked. The page sends no network requests."""
-import pathlib
-import tempfile
 import unittest
 
 from page import FILES, GOLDEN, Page, report  # first: it takes the arguments and adds plots to sys.path
@@ -56,23 +54,6 @@ class Brief(Page):
             self.assertTrue(self.browser.run("return document.querySelectorAll('section:not([hidden]) tbody tr').length"))
         self.browser.go("#overview")
         self.assertEqual(self.browser.run("return document.querySelectorAll('a[href^=\"#cell\"], .drawing, dialog[open]').length"), 0)
-
-
-class Refusals(unittest.TestCase):
-    def test_what_is_no_result_file_is_refused_in_one_sentence(self) -> None:
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            other = folder / "other.json"
-            for text, words in (("{}", "not a result file"), ("{", "not JSON, at line 1"), ('{"format": "2.0"}', "this reader knows 1.x")):
-                other.write_text(text, encoding="utf-8")
-                done = report(folder / "r.html", other)
-                self.assertEqual((done.returncode, done.stdout), (3, ""))
-                self.assertRegex(done.stderr, rf"^bvhbench: [^\n]*{words}[^\n]*\n$")
-            done = report(folder / "r.html", folder / "none.json")
-            self.assertEqual((done.returncode, done.stderr), (3, f"bvhbench: {folder}/none.json: No such file or directory\n"))
-            self.assertEqual(list(folder.glob("*.html")), [])
-            done = report(folder / "r.html")
-            self.assertEqual((done.returncode, done.stderr), (2, "bvhbench: name result files, or a --scene to show\n"))
 
 
 if __name__ == "__main__":

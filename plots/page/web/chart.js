@@ -14,8 +14,18 @@ const seen = new IntersectionObserver(
 const narrow = matchMedia("(max-width: 600px)");
 for (const query of [narrow, dark]) {
   query.addEventListener("change", () =>
-    document.querySelectorAll(".drawing.drawn").forEach((drawing) => drawing.chart && drawing.chart.draw())
+    document.querySelectorAll(".drawing.drawn").forEach((drawing) => drawing.chart.draw())
   );
+}
+
+async function drawPlot(plot, traces, layout, modeBar) {
+  await Plotly.react(plot, traces, layoutOf(layout), {
+    displaylogo: false,
+    displayModeBar: modeBar,
+    responsive: true,
+    modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+  });
+  plot.classList.add("drawn");
 }
 
 class Chart {
@@ -24,23 +34,17 @@ class Chart {
     this.drawing = draw;
     this.selects = Object.values(choices).map((options) => menu(options, () => this.draw()));
     const shownChoices = Object.keys(choices).map((label, k) => {
-      const [only] = [...this.selects[k].options].map((option) => option.textContent);
-      return choices[label].length > 1
+      const {options} = this.selects[k];
+      return options.length > 1
         ? element("label", {}, label + " ", this.selects[k])
-        : element("span", {class: "only"}, label + " ", element("b", {}, only));
+        : element("span", {class: "only"}, label + " ", element("b", {}, options[0].textContent));
     });
     this.plot = element("div", {class: "drawing", role: "img", "aria-label": title});
     this.legend = element("div", {class: "legend", role: "group", "aria-label": "Legend: press to hide or show"});
     this.notes = element("div", {class: "note"});
-    this.element = element(
-      "figure",
-      {class: "chart"},
-      element("figcaption", {}, element("h3", {}, title)),
-      element("div", {class: "controls"}, ...shownChoices),
-      this.plot,
-      this.legend,
-      this.notes
-    );
+    const head = element("figcaption", {}, element("h3", {}, title));
+    const controls = element("div", {class: "controls"}, ...shownChoices);
+    this.element = element("figure", {class: "chart"}, head, controls, this.plot, this.legend, this.notes);
     this.plot.chart = this;
     seen.observe(this.plot);
   }
@@ -51,29 +55,28 @@ class Chart {
     this.hidden = new Set();
     this.legend.replaceChildren(...legend.map((entry) => this.entry(entry)));
     this.notes.replaceChildren(...notes.filter(Boolean).map((note) => element("p", {}, note)));
-    this.plot.style.height = (layout.height || 400) + "px";
-    await Plotly.react(this.plot, traces, layoutOf(layout), {
-      displaylogo: false,
-      displayModeBar: narrow.matches ? false : "hover",
-      responsive: true,
-      modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
-    });
-    if (!this.plot.classList.contains("drawn")) {
-      this.plot.on("plotly_click", ({points: [point]}) => leadOn(point));
+    this.plot.style.height = layout.height + "px";
+    const isFirst = !this.plot.classList.contains("drawn");
+    await drawPlot(this.plot, traces, layout, narrow.matches ? false : "hover");
+    if (isFirst) {
+      this.plot.on("plotly_click", ({points: [{data, pointIndex}]}) => {
+        location.hash = data.leads?.[pointIndex] || location.hash;
+      });
     }
-    this.plot.classList.add("drawn");
   }
 
   /** Creates a button that hides and shows the traces that `isOf` chooses; by default those of its name. */
   entry({name, look, isOf = (trace) => trace.name === name}) {
     const toggle = () => {
-      const isShown = button.getAttribute("aria-pressed") !== "true";
-      button.setAttribute("aria-pressed", String(isShown));
-      this.hidden[isShown ? "delete" : "add"](isOf);
+      const isShown = this.hidden.delete(isOf);
+      if (!isShown) {
+        this.hidden.add(isOf);
+      }
+      made.setAttribute("aria-pressed", isShown);
       const isHidden = (trace) => [...this.hidden].some((one) => one(trace));
       Plotly.restyle(this.plot, {visible: this.plot.data.map((trace) => (isHidden(trace) ? "legendonly" : true))});
     };
-    const button = element("button", {type: "button", "aria-pressed": "true", click: toggle}, swatch(look), name);
-    return button;
+    const made = button({"aria-pressed": true, click: toggle}, swatch(look), name);
+    return made;
   }
 }

@@ -8,27 +8,24 @@ function withZero(values) {
     const more = {rangemode: "nonnegative", ...(most > 0 ? {} : {range: [-0.05, 1]})};
     return {place: (value) => value, log: isWide(values) ? values : null, more: isWide(values) ? {} : more};
   }
-  const first = Math.floor(Math.log10(least));
-  const last = Math.ceil(Math.log10(most));
+  const [first, last] = [Math.floor(Math.log10(least)), Math.ceil(Math.log10(most))];
   const step = Math.max(1, Math.ceil((last - first) / 6));
-  const powers = [];
-  for (let power = last; power >= first; power -= step) {
-    powers.unshift(power);
-  }
+  const powers = Array.from({length: 1 + Math.floor((last - first) / step)}, (_, k) => last - k * step).reverse();
   const zero = 10 ** (first - step);
+  const named = (power) => (power >= -3 && power <= 4 ? String(10 ** power) : `1e${power}`);
   return {
-    place: (value) => (value === 0 ? zero : value),
+    place: (value) => value || zero,
     log: [zero, most],
     more: {
       dtick: undefined,
       tickvals: [zero, ...powers.map((power) => 10 ** power)],
-      ticktext: ["0", ...powers.map((power) => (power >= -3 && power <= 4 ? String(10 ** power) : `1e${power}`))],
+      ticktext: ["0", ...powers.map(named)],
     },
   };
 }
 
 function paretoChart(file) {
-  const scenes = grouped(file.cells, questionOf(file.cells));
+  const scenes = Map.groupBy(file.cells, questionOf(file.cells));
   const shownOf = (scene, measure) => scenes.get(scene).filter((cell) => cell.times.whole && measure in cell.measures);
   const isUseful = (scene, measure) => new Set(shownOf(scene, measure).map((cell) => cell.measures[measure])).size > 1;
   const all = [...new Set(file.cells.flatMap((cell) => Object.keys(cell.measures || {})))];
@@ -51,15 +48,8 @@ function paretoChart(file) {
     });
     const isBest = (cell) => cell.front.includes(measure);
     const front = here.filter(isBest).sort((a, b) => a.times.whole[1] - b.times.whole[1]);
-    const line = {
-      type: "scatter",
-      mode: "lines",
-      ...placesOf(front),
-      line: {color: "#888888", width: 1},
-      hoverinfo: "skip",
-      name: "front",
-    };
-    const dots = [...grouped(here, (cell) => cell.who)].map(([name, cells]) => {
+    const joined = {type: "scatter", mode: "lines", line: {color: "#888888", width: 1}, hoverinfo: "skip", name: "front"};
+    const dots = [...Map.groupBy(here, (cell) => cell.who)].map(([name, cells]) => {
       const look = themed(file.looks[name]);
       return scatter(name, look, cells, "whole", {
         mode: "markers",
@@ -77,7 +67,7 @@ function paretoChart(file) {
       });
     });
     return {
-      traces: [line, ...dots],
+      traces: [{...joined, ...placesOf(front)}, ...dots],
       legend: legendOf(here, file.looks),
       layout: {
         height: 430,

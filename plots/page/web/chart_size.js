@@ -3,11 +3,7 @@
 const QUANTITIES = {
   time: {text: "time", axis: (unit) => `time, ${unit[0]}`, of: (ns, triangles, unit) => ns / unit[1]},
   each: {text: "time a triangle", axis: () => "time a triangle, ns", of: (ns, triangles) => ns / triangles},
-  rate: {
-    text: "triangles a second",
-    axis: () => "million triangles a second",
-    of: (ns, triangles) => (1e3 * triangles) / ns,
-  },
+  rate: {text: "triangles a second", axis: () => "million triangles a second", of: (ns, triangles) => (1e3 * triangles) / ns},
 };
 
 const DASHES_OF_FAMILIES = ["solid", "dot", "dash", "dashdot"];
@@ -16,8 +12,8 @@ const MOST_SCENES = 40; // in the menu
 
 /** Returns a function that names a cell's family: generated scenes of several sizes, drawn as a line. Empty for others. */
 function familiesOf(cells) {
-  const sizes = grouped(cells, (cell) => cell.family);
-  const isLine = (family) => family && new Set(sizes.get(family).map((cell) => cell.triangles)).size > 1;
+  const sizes = Map.groupBy(cells, (cell) => cell.family);
+  const isLine = (family) => family && distinct(sizes.get(family), "triangles").length > 1;
   const lines = new Set([...sizes.keys()].filter(isLine));
   return (cell) => (lines.has(cell.family) ? cell.family : "");
 }
@@ -31,7 +27,7 @@ function familyLooks(cells, familyOf) {
 
 function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
   const families = familyLooks(cells, familyOf);
-  const lines = grouped(cells, (cell) => [cell.who, familyOf(cell), cell.asked].join("\n"));
+  const lines = Map.groupBy(cells, (cell) => [cell.who, familyOf(cell), cell.asked].join("\n"));
   return [...lines.values()].map((line) => {
     const {who, asked} = line[0];
     const family = familyOf(line[0]);
@@ -71,7 +67,7 @@ function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
 function meshNames(traces) {
   const all = traces.flatMap(({x, y, text, meta}) => x.map((size, k) => ({size, scene: text[k], y: y[k], family: meta})));
   const marks = all.filter(({scene, family}) => !family || scene.includes(" *"));
-  const scenes = [...grouped(marks, (mark) => mark.scene).values()].sort((a, b) => a[0].size - b[0].size);
+  const scenes = [...Map.groupBy(marks, (mark) => mark.scene).values()].sort((a, b) => a[0].size - b[0].size);
   if (!scenes.length || scenes.length > MOST_NAMES) {
     return [];
   }
@@ -96,59 +92,50 @@ function meshNames(traces) {
   return labels.map(({scenes: names, ...label}) => ({...label, text: text(names), ...how}));
 }
 
-/** Returns the options of a menu of scenes: a single one, all and each, or with too many only all. */
-function menuOf(places) {
-  const each = places.length <= MOST_SCENES ? places : [];
-  return places.length === 1 ? [["", places[0]]] : [["", "all"], ...each];
-}
-
 function sizeChart(file) {
   const builds = file.cells.filter((cell) => ["build", "refit"].includes(cell.operation) && cell.triangles);
-  const sizes = grouped(builds, (cell) => cell.experiment);
-  const experiments = [...sizes].filter(
-    ([, cells]) => new Set(cells.filter((cell) => cell.times.whole).map((cell) => cell.triangles)).size > 2
-  );
-  if (!experiments.length) {
+  const sizes = Map.groupBy(builds, (cell) => cell.experiment);
+  const isTimed = (cell) => cell.times.whole;
+  const names = [...sizes.keys()].filter((name) => distinct(sizes.get(name).filter(isTimed), "triangles").length > 2);
+  if (!names.length) {
     return null;
   }
-  const stages = [...new Set(experiments.flatMap(([, cells]) => cells.flatMap((cell) => Object.keys(cell.times))))];
+  const all = names.flatMap((name) => sizes.get(name));
+  const stages = [...new Set(all.flatMap((cell) => Object.keys(cell.times)))];
   const familyOf = familiesOf(builds);
   const placeOf = (cell) => familyOf(cell) || cell.scene;
-  const places = [...new Set(experiments.flatMap(([, cells]) => cells.map(placeOf)))];
+  const places = [...new Set(all.map(placeOf))];
   const wanted = stages.length === 2 ? ["whole"] : stages; // a single stage is the whole
-  return new Chart(
-    "Time against size",
-    {
-      Experiment: experiments.map(([name]) => name),
-      Stage: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage]),
-      Scenes: menuOf(places),
-      Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
-    },
-    (experiment, stage, scene, key) => {
-      const all = sizes.get(experiment).filter((cell) => !scene || placeOf(cell) === scene);
-      const cells = all.filter((cell) => cell.times[stage] && cell.times[stage][0] > 0);
-      const unit = unitFor(cells.map((cell) => cell.times[stage][1]));
-      const quantity = QUANTITIES[key];
-      const traces = sizeTraces(cells, familyOf, stage, quantity, unit, file.looks);
-      const points = cells.some((cell) => !familyOf(cell));
-      const ofFamily = (family, look) => ({name: family, look, isOf: (trace) => trace.meta === family});
-      const families = [...familyLooks(cells, familyOf)].map(([family, look]) => ofFamily(family, look));
-      return {
-        traces,
-        legend: [...legendOf(cells, file.looks), ...families],
-        layout: {
-          height: 430,
-          annotations: meshNames(traces),
-          xaxis: axis("triangles", cells.map((cell) => cell.triangles), {tickformat: "~s"}),
-          yaxis: axis(quantity.axis(unit), traces.flatMap((trace) => trace.y), {tickformat: ",.4~r"}),
-        },
-        notes: [
-          "Medians; bars from the 10th to the 90th percentile." +
-            (points ? " Points without a line are scenes of one size, each another shape." : ""),
-          ...missingNotes(all),
-          ...starNotes(file, all),
-        ],
-      };
-    }
-  );
+  const choices = {
+    Experiment: names,
+    Stage: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage]),
+    Scenes: places.length === 1 ? [["", places[0]]] : [["", "all"], ...(places.length <= MOST_SCENES ? places : [])],
+    Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
+  };
+  return new Chart("Time against size", choices, (experiment, stage, scene, key) => {
+    const here = sizes.get(experiment).filter((cell) => !scene || placeOf(cell) === scene);
+    const cells = here.filter((cell) => cell.times[stage] && cell.times[stage][0] > 0);
+    const unit = unitFor(cells.map((cell) => cell.times[stage][1]));
+    const quantity = QUANTITIES[key];
+    const traces = sizeTraces(cells, familyOf, stage, quantity, unit, file.looks);
+    const points = cells.some((cell) => !familyOf(cell));
+    const ofFamily = (family, look) => ({name: family, look, isOf: (trace) => trace.meta === family});
+    const families = [...familyLooks(cells, familyOf)].map(([family, look]) => ofFamily(family, look));
+    return {
+      traces,
+      legend: [...legendOf(cells, file.looks), ...families],
+      layout: {
+        height: 430,
+        annotations: meshNames(traces),
+        xaxis: axis("triangles", cells.map((cell) => cell.triangles), {tickformat: "~s"}),
+        yaxis: axis(quantity.axis(unit), traces.flatMap((trace) => trace.y), {tickformat: ",.4~r"}),
+      },
+      notes: [
+        "Medians; bars from the 10th to the 90th percentile." +
+          (points ? " Points without a line are scenes of one size, each another shape." : ""),
+        ...missingNotes(here),
+        ...starNotes(file, here),
+      ],
+    };
+  });
 }

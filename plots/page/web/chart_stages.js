@@ -10,22 +10,13 @@ function shortened(text, most) {
 
 /** Returns a name broken into lines of at most `most` characters where possible. */
 function broken(name, most) {
-  const lines = [""];
-  for (const word of name.split(" ")) {
-    const last = lines[lines.length - 1];
-    if (last && last.length + word.length + 1 > most) {
-      lines.push(word);
-    } else {
-      lines[lines.length - 1] = last ? `${last} ${word}` : word;
-    }
-  }
-  return lines;
+  return `${name} `.match(new RegExp(`.{1,${most}} |\\S+ `, "g")).map((line) => line.trim());
 }
 
 function stagesChart(file, stageLooks) {
   const question = questionOf(file.cells);
-  const scenes = grouped(file.cells, question);
-  const barsOf = grouped(file.bars, question);
+  const scenes = Map.groupBy(file.cells, question);
+  const barsOf = Map.groupBy(file.bars, question);
   const useful = [...scenes].filter(([, cells]) => cells.some((cell) => cell.times.whole && cell.times.whole[1] > 0));
   if (!useful.length) {
     return null;
@@ -34,9 +25,9 @@ function stagesChart(file, stageLooks) {
     const cells = scenes.get(scene);
     const bars = barsOf.get(scene);
     const timed = bars.filter((bar) => bar.stages);
-    const unit = unitFor(timed.map((bar) => bar.whole));
-    const limit = LONGEST * Math.min(...timed.map((bar) => bar.whole));
-    const longest = Math.max(...timed.map((bar) => bar.whole));
+    const wholes = timed.map((bar) => bar.whole);
+    const unit = unitFor(wholes);
+    const [limit, longest] = [LONGEST * Math.min(...wholes), Math.max(...wholes)];
     const there = Object.keys(stageLooks).filter((stage) => timed.some((bar) => bar.stages[stage]));
     const looks = Object.fromEntries(there.map((stage) => [stage, themed(stageLooks[stage])]));
     const labels = bars.map((bar) => broken(bar.who, narrow.matches ? 18 : 40));
@@ -48,7 +39,7 @@ function stagesChart(file, stageLooks) {
       x: timed.map((bar) => (bar.stages[stage] || 0) / unit[1]),
       width: 0.7,
       customdata: timed.map((bar) => bar.who),
-      ...samplesOf(timed.map((bar) => file.cells[bar.cell]), stage === BETWEEN ? "whole" : stage),
+      leads: timed.map((bar) => leadTo(file.cells[bar.cell], stage === BETWEEN ? "whole" : stage)),
       marker: {
         color: looks[stage].colour,
         line: {width: 0},
@@ -57,7 +48,17 @@ function stagesChart(file, stageLooks) {
       hovertemplate: `%{customdata}<br>%{x:.4g} ${unit[0]}<extra>%{fullData.name}</extra>`,
     }));
     const isOfLibrary = (bar) => cells.some((cell) => cell.who === bar.who && cell.library);
-    const frames = new Set(cells.map((cell) => cell.frame)).size;
+    const note = (bar) => ({
+      x: 0,
+      y: bars.indexOf(bar),
+      xanchor: "left",
+      showarrow: false,
+      bgcolor: colour("card"),
+      font: {color: colour(bar.said.startsWith("skipped") ? "quiet" : isOfLibrary(bar) ? "theirs" : "bad")},
+      text: shortened(bar.said, narrow.matches ? 24 : 90),
+    });
+    const whole = (bar) => (bar.whole ? `<br><b>${four(bar.whole / unit[1])} ${unit[0]}</b>` : "");
+    const frames = distinct(cells, "frame").length;
     const row = Math.max(ROW, 15 * (Math.max(...labels.map((lines) => lines.length)) + 1) + 6); // all as high as the highest
     return {
       traces,
@@ -73,27 +74,13 @@ function stagesChart(file, stageLooks) {
           range: [bars.length - 0.4, -0.6],
           tickvals: bars.map((_, k) => k),
           fixedrange: true,
-          ticktext: bars.map(
-            (bar, k) => labels[k].join("<br>") + (bar.whole ? `<br><b>${four(bar.whole / unit[1])} ${unit[0]}</b>` : "")
-          ),
+          ticktext: bars.map((bar, k) => labels[k].join("<br>") + whole(bar)),
         },
-        annotations: bars
-          .filter((bar) => bar.said)
-          .map((bar) => ({
-            x: 0,
-            y: bars.indexOf(bar),
-            xanchor: "left",
-            showarrow: false,
-            bgcolor: colour("card"),
-            font: {color: colour(bar.said.startsWith("skipped") ? "quiet" : isOfLibrary(bar) ? "theirs" : "bad")},
-            text: shortened(bar.said, narrow.matches ? 24 : 90),
-          })),
+        annotations: bars.filter((bar) => bar.said).map(note),
       },
       notes: [
         frames > 1 ? `Means over ${frames} frames of medians. Bold: the whole.` : "Medians. Bold: the whole.",
-        longest > limit
-          ? `The axis ends at ${LONGEST} times the shortest bar; a double click on the chart shows all.`
-          : "",
+        longest > limit ? `The axis ends at ${LONGEST} times the shortest bar; a double click on the chart shows all.` : "",
         ...starNotes(file, cells),
       ],
     };

@@ -1,38 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Cells that a chart compares: which are comparable, which have no times, and links to their samples.
-function grouped(cells, keyOf) {
-  const groups = new Map();
-  for (const cell of cells) {
-    const key = keyOf(cell);
-    if (!groups.has(key)) {
-      groups.set(key, []);
-    }
-    groups.get(key).push(cell);
-  }
-  return groups;
+// Cells that a chart compares: which are comparable, which have no times, their marks, and links to their samples.
+/** Returns the different values that cells have of a key. */
+function distinct(cells, key) {
+  return [...new Set(cells.map((cell) => cell[key]))];
 }
 
 /** Returns a function that names a cell's question: its scene, and its experiment, axis and request where these vary. */
 function questionOf(cells) {
-  const ofScene = [...grouped(cells, (cell) => cell.scene).values()];
+  const ofScene = [...Map.groupBy(cells, (cell) => cell.scene).values()];
   const parts = ["experiment", "axis", "scene", "asked"].filter(
-    (key) => key === "scene" || ofScene.some((group) => new Set(group.map((cell) => cell[key])).size > 1)
+    (key) => key === "scene" || ofScene.some((group) => distinct(group, key).length > 1)
   );
-  return (cell) =>
-    parts
-      .map((key) => cell[key])
-      .filter(Boolean)
-      .join(" · ");
+  const named = (cell) => parts.map((key) => cell[key]).filter(Boolean);
+  return (cell) => named(cell).join(" · ");
 }
 
 /** Returns sentences about the cells that are not drawn, and why. */
 function missingNotes(cells) {
-  const groups = grouped(
-    cells.filter((cell) => WITHOUT_TIMES.includes(cell.state)),
-    (cell) => `${cell.who} ${cell.state === "differs" ? "gave a wrong answer" : cell.state}`
-  );
+  const without = cells.filter((cell) => WITHOUT_TIMES.includes(cell.state));
+  const groups = Map.groupBy(without, (cell) => `${cell.who} ${cell.state === "differs" ? "gave a wrong answer" : cell.state}`);
   const sentences = [...groups].map(([key, group]) => {
-    const scenes = [...new Set(group.map((cell) => cell.scene))];
+    const scenes = distinct(group, "scene");
     const more = scenes.length > 3 ? ` and ${scenes.length - 3} more` : "";
     return `${key} on ${scenes.slice(0, 3).join(", ")}${more}${group[0].why ? ": " + group[0].why : ""}.`;
   });
@@ -45,14 +33,20 @@ function starNotes(file, cells) {
   return cells.some((cell) => cell.is_stand_in) ? [file.star + "."] : [];
 }
 
-/** Returns the links of marks to their samples: the cell and stage of each mark. */
-function samplesOf(cells, stage) {
-  return {leads: cells.map((cell) => (cell ? `#cell=${cell.file}.${cell.place}.${stage}` : null))};
+/** Returns a line or marks of cells in the given look. Each mark leads to the samples of a stage. */
+function scatter(name, plain, cells, stage, {marker, ...more}) {
+  const look = themed(plain);
+  return {
+    type: "scatter",
+    name,
+    leads: cells.map((cell) => leadTo(cell, stage)),
+    line: {color: look.colour, dash: look.dash, width: 1.5},
+    marker: {color: look.colour, symbol: look.symbol, line: {color: colour("ink"), width: 0.4}, ...marker},
+    ...more,
+  };
 }
 
-function leadOn(point) {
-  const {leads} = point.data;
-  if (leads && leads[point.pointIndex]) {
-    location.hash = leads[point.pointIndex];
-  }
+/** Returns the address of a cell's samples of a stage; nothing without a cell. */
+function leadTo(cell, stage) {
+  return cell ? `#cell=${cell.file}.${cell.place}.${stage}` : null;
 }

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Formats numbers as text, and creates elements of the page.
-const WITHOUT_TIMES = ["differs", "failed", "skipped"];
-const UNITS = [
-  ["s", 1e9],
-  ["ms", 1e6],
-  ["µs", 1e3],
-  ["ns", 1],
-];
+const UNITS = {s: 1e9, ms: 1e6, µs: 1e3, ns: 1};
 
 /** Returns four significant digits, with an exponent only for very large or small numbers. */
 function four(value) {
@@ -15,74 +9,72 @@ function four(value) {
     return "0";
   }
   if (size >= 1e3 && size < 1e15) {
-    return Math.round(value).toLocaleString("en");
+    return counted(Math.round(value));
   }
   return size >= 1e-4 && size < 1e3 ? value.toPrecision(4) : value.toExponential(3);
 }
 
+/** Returns all digits before the point, and three after it. */
+function counted(value) {
+  return value.toLocaleString("en", {maximumFractionDigits: 3});
+}
+
+function plural(number, word) {
+  return `${counted(number)} ${word}${number === 1 ? "" : "s"}`;
+}
+
 function shown(value, kind) {
-  if (value === null || value === undefined || value === "") {
-    return "–";
+  if (typeof value !== "number") {
+    return value || "–";
   }
-  if (kind === "count") {
-    return value.toLocaleString("en", {maximumFractionDigits: 3});
-  }
-  if (kind === "share") {
-    return typeof value === "string" ? value : (100 * value).toFixed(1) + " %";
-  }
-  return typeof value === "number" ? four(value) : value;
+  return kind === "count" ? counted(value) : kind === "share" ? (100 * value).toFixed(1) + " %" : four(value);
 }
 
 /** Returns the unit [name, nanoseconds] in which the median of the times is at least 1. */
 function unitFor(times) {
   const sorted = [...times].sort((a, b) => a - b);
   const middle = sorted[sorted.length >> 1] || 1;
-  return UNITS.find((unit) => middle >= unit[1]) || UNITS[3];
+  return Object.entries(UNITS).find((unit) => middle >= unit[1]) || ["ns", 1];
 }
 
 /** element("a", {href: "#"}, "text", child): creates an element. Attributes that are functions become event handlers. */
 function element(tag, attributes, ...children) {
   const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes || {})) {
+  for (const [name, value] of Object.entries(attributes)) {
     if (typeof value === "function") {
       made.addEventListener(name, value);
-    } else if (value !== null && value !== false) {
-      made.setAttribute(name, value === true ? "" : value);
+    } else if (value !== null) {
+      made.setAttribute(name, value);
     }
   }
-  made.append(...children.filter((child) => child !== null && child !== undefined));
+  made.append(...children.filter((child) => child !== null));
   return made;
 }
 
 /** Creates a menu of options, each a value or [value, text]. `change` is called with the chosen value. */
 function menu(options, change) {
-  const pairs = options.map((option) => (Array.isArray(option) ? option : [option, option]));
-  const texts = pairs.map(([value, text]) => element("option", {value}, text));
+  const pairs = options.map((option) => [option].flat());
+  const texts = pairs.map(([value, text = value]) => element("option", {value}, text));
   const made = element("select", {change: () => change(made.value)}, ...texts);
   return made;
 }
 
+function button(attributes, ...children) {
+  return element("button", {type: "button", ...attributes}, ...children);
+}
+
 /** Shows a verdict by word and border, not by colour alone. A library's failure is told apart from one of ours. */
 function badge(state, isOfLibrary) {
-  const kind = "state state-" + String(state).split(/[ :]/)[0] + (isOfLibrary ? " of-library" : "");
-  return element("span", {class: kind}, String(state).replace("_", " "));
+  const kind = "state state-" + state.split(/[ :]/)[0] + (isOfLibrary ? " of-library" : "");
+  return element("span", {class: kind}, state.replace("_", " "));
 }
 
-/** Returns "of libraries: FCL 60, Embree 9", with "all " or the number in front, for the counts of a state; "" without any. */
-function ofLibraries({count, libraries}) {
-  const named = Object.entries(libraries).sort(([, one], [, other]) => other - one);
-  const theirs = named.reduce((sum, [, number]) => sum + number, 0);
-  const said = named.map(([name, number]) => `${name} ${number.toLocaleString("en")}`).join(", ");
-  return theirs ? `${theirs === count ? "all" : theirs.toLocaleString("en")} of libraries: ${said}` : "";
-}
-
-function download(name, lines) {
-  const link = element("a", {
-    download: name,
-    href: URL.createObjectURL(new Blob([lines.join("\n") + "\n"], {type: "text/csv"})),
-  });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+/** Saves rows as CSV. */
+function download(name, rows) {
+  const lines = rows.map((row) => row.map(csvCell).join(",") + "\n");
+  const href = URL.createObjectURL(new Blob(lines, {type: "text/csv"}));
+  element("a", {download: name, href}).click();
+  setTimeout(() => URL.revokeObjectURL(href), 1000);
 }
 
 /** Formats a CSV value. A text that a spreadsheet would take for a formula gets an apostrophe in front. */
@@ -90,12 +82,4 @@ function csvCell(value) {
   const text = String(value ?? "");
   const harmless = typeof value === "string" && /^[=+\-@\t\r]/.test(text) ? "'" + text : text;
   return /[",\r\n]/.test(harmless) ? `"${harmless.replace(/"/g, '""')}"` : harmless;
-}
-
-function csvLine(values) {
-  return values.map(csvCell).join(",");
-}
-
-function plural(count, word) {
-  return `${count.toLocaleString("en")} ${word}${count === 1 ? "" : "s"}`;
 }

@@ -18,54 +18,31 @@ const SHAPES = {
   x: "M-4.4,-2.2L-2.2,-4.4L0,-2.2L2.2,-4.4L4.4,-2.2L2.2,0L4.4,2.2L2.2,4.4L0,2.2L-2.2,4.4L-4.4,2.2L-2.2,0Z",
 };
 
-const DASHES = {dash: "6 4", dot: "2 3", dashdot: "6 3 2 3"};
+const DASHES = {solid: "none", dash: "6 4", dot: "2 3", dashdot: "6 3 2 3"};
 
 const HATCHES = {
   "/": "M-3,3L3,-3",
   x: "M-3,3L3,-3M-3,-3L3,3",
+  "+": "M-3.6,0H3.6M0,-3.6V3.6",
   ".": "M-2.4,-1.6h1.6M0.8,-1.6h1.6M-2.4,1.6h1.6M0.8,1.6h1.6",
 };
 
-function drawn(tag, attributes, ...children) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
-  made.append(...children);
-  return made;
-}
-
-/** Draws a look for a legend; a hatched one has a stroke. */
+/** Draws a look for a legend: a shape, with a stroke if it is hatched, or a dashed line with a mark, filled or open. */
 function swatch(plain) {
-  const look = themed(plain);
-  if (look.line) {
-    return lineSwatch(look);
-  }
-  const shape = drawn("path", {
-    d: SHAPES[look.symbol] || SHAPES.square,
-    fill: look.colour,
-    stroke: "currentColor",
-    "stroke-width": 0.6,
-  });
-  const hatch = look.pattern
-    ? [drawn("path", {d: HATCHES[look.pattern], stroke: "#ffffff", "stroke-width": 1.6, fill: "none"})]
-    : [];
-  return drawn("svg", {viewBox: "-8 -7 16 14", "aria-hidden": "true"}, shape, ...hatch);
-}
-
-/** Draws a dashed line with a mark, filled or open. */
-function lineSwatch({dash, isOpen}) {
-  const paint = {stroke: "currentColor", "stroke-width": 1.4};
-  return drawn(
-    "svg",
-    {viewBox: "-14 -7 28 14", class: "wide", "aria-hidden": "true"},
-    drawn("path", {d: "M-14,0H14", "stroke-dasharray": DASHES[dash] || "none", ...paint}),
-    drawn("circle", {r: 3, fill: isOpen ? "var(--card)" : "currentColor", ...paint})
-  );
+  const {colour: fill, symbol, pattern, line, dash, isOpen} = themed(plain);
+  const hatch = pattern ? `<path d="${HATCHES[pattern]}" stroke="#ffffff" stroke-width="1.6" fill="none"/>` : "";
+  const shape = `<path d="${SHAPES[symbol]}" fill="${fill}" stroke="currentColor" stroke-width="0.6"/>${hatch}`;
+  const mark = `<circle r="3" fill="${isOpen ? "var(--card)" : "currentColor"}"/>`;
+  const dashed = `<g stroke="currentColor" stroke-width="1.4"><path d="M-14,0H14" stroke-dasharray="${DASHES[dash]}"/>${mark}</g>`;
+  const box = line ? 'viewBox="-14 -7 28 14" class="wide"' : 'viewBox="-8 -7 16 14"';
+  const made = element("template", {});
+  made.innerHTML = `<svg ${box} aria-hidden="true">${line ? dashed : shape}</svg>`;
+  return made.content.firstChild;
 }
 
 /** Returns the legend entries of these cells, in the order of the file's looks. */
 function legendOf(cells, looks) {
   const there = new Set(cells.map((cell) => cell.who));
-  return Object.keys(looks)
-    .filter((name) => there.has(name))
-    .map((name) => ({name, look: looks[name]}));
+  const names = Object.keys(looks).filter((name) => there.has(name));
+  return names.map((name) => ({name, look: looks[name]}));
 }

@@ -1,43 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The page itself: its contents, the part that is shown, and the targets of links. Parts are created when first shown.
-const made = new Set();
-const BAD = ["differs", "failed", "skipped", "broken"];
-const STATES = ["agrees", "counted", "not_checked", "holds", "refused", "differs", "broken", "failed", "skipped"];
-
+/** Returns how many cells are in each state; of the bad ones also how many are libraries'. */
 function verdictsOf(states) {
-  return STATES.filter((state) => states[state]).map((state) => {
-    const {count} = states[state];
-    const theirs = BAD.includes(state) ? ofLibraries(states[state]) : "";
-    const said = ` ${count.toLocaleString("en")}${theirs ? `, ${theirs}` : ""}`;
-    return element("span", {class: "tally"}, badge(state, theirs.startsWith("all")), said);
-  });
-}
-
-function runsTable(files) {
-  const bad = (file) =>
-    BAD.filter((state) => file.states[state])
-      .map((state) => [`${file.states[state].count} ${state}`, ofLibraries(file.states[state])].filter(Boolean).join(", "))
-      .join("; ");
-  const plain = ["device", "driver", "commit", "options", "machine", "processor", "started"];
-  const columns = [
-    ["file", "text", (file) => file.title],
-    ["experiments", "text", (file) => file.experiments.join(", ")],
-    ["cells", "count", (file) => file.count],
-    ["wrong or missing", "text", (file) => bad(file) || null],
-    ...plain.map((key) => [key, "text", (file) => file[key]]),
-  ];
-  const data = {
-    title: "What was run on what",
-    cells: null,
-    rows: files.map((file) => columns.map(([, , value]) => value(file))),
-    columns: columns.map(([label, kind], k) => ({
-      label,
-      kind,
-      facet: ["device", "experiments", "commit"].includes(label),
-      links: k === 0 ? files.map((_, number) => "#file-" + number) : null,
-    })),
-  };
-  return tableSection(data, 0);
+  return states.map((one) => element("span", {class: "tally"}, badge(one.state, one.of.startsWith(", all")), ` ${one.count}${one.of}`));
 }
 
 /** Returns the figures that a brief page has in place of charts. */
@@ -48,28 +13,21 @@ async function pictures(number) {
   });
 }
 
-/** Creates a file's tables and charts the first time it is shown. */
+/** Creates a file's tables and charts. */
 async function makeFile(number, head) {
-  if (made.has(number)) {
-    return;
-  }
-  made.add(number);
   const part = document.getElementById("file-" + number);
   const file = await jsonOf("file-" + number);
   file.cells.forEach((cell, place) => Object.assign(cell, {file: number, place}));
   part.querySelector(".verdicts").append(...verdictsOf(file.states));
-  const charts = document.getElementById("blob-pictures-" + number)
-    ? await pictures(number)
-    : [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)]
-        .filter(Boolean)
-        .map((chart) => chart.element);
-  part.querySelector(".charts").append(...charts);
-  const tables = file.tables.map((table) => tableSection(table, number));
-  const missing = file.tables.findIndex((table) => table.title.startsWith("Without") && !table.folded);
-  if (missing >= 0) {
-    part.querySelector(".verdicts").after(tables.splice(missing, 1)[0]);
+  const charts = [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)]
+    .filter(Boolean)
+    .map((chart) => chart.element);
+  const isBrief = document.getElementById("blob-pictures-" + number);
+  part.querySelector(".charts").append(...(isBrief ? await pictures(number) : charts));
+  for (const table of file.tables) {
+    const isFirst = table.title.startsWith("Without") && !table.folded;
+    part.querySelector(isFirst ? ".verdicts" : ".tables")[isFirst ? "after" : "append"](tableSection(table, number));
   }
-  part.querySelector(".tables").append(...tables);
 }
 
 async function show(name, head) {
@@ -84,7 +42,7 @@ async function show(name, head) {
     }
   });
   if (name.startsWith("file-")) {
-    await makeFile(Number(name.slice(5)), head);
+    await once("part-" + name, () => makeFile(Number(name.slice(5)), head));
   }
 }
 
@@ -98,23 +56,18 @@ async function follow(head) {
     return;
   }
   document.getElementById("samples").close();
-  await show(document.getElementById(target) && target ? target : "overview", head);
+  await show(document.getElementById(target) ? target : "overview", head);
 }
 
 async function start() {
-  if (typeof DecompressionStream === "undefined") {
-    throw new Error("This page needs a browser of 2023 or later: it unpacks its data with DecompressionStream.");
+  if (!Map.groupBy) {
+    throw new Error("This page needs a browser of 2024 or later: it groups its data by Map.groupBy.");
   }
   const head = await jsonOf("head");
   Object.assign(inTheDark, head.dark);
-  const links = [["overview", "Overview"], ...head.files.map((file, k) => ["file-" + k, file.title])];
+  const links = [["overview", "Overview"], ...head.titles.map((title, k) => ["file-" + k, title])];
   document.getElementById("files").append(...links.map(([id, text]) => element("a", {href: "#" + id}, text)));
-  if (head.best) {
-    document.getElementById("best").append(tableSection(head.best, 0));
-  }
-  if (head.files.length) {
-    document.getElementById("runs").append(runsTable(head.files));
-  }
+  document.getElementById("overview-tables").append(...head.tables.map((table) => tableSection(table, 0)));
   document.getElementById("views").append(...head.views.map((facts, k) => new View(facts, k).element));
   // Closing the dialog returns to the part that it was opened over, and keeps the history intact.
   document.getElementById("samples").addEventListener("close", () => {

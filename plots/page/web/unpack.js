@@ -9,35 +9,23 @@ function once(key, make) {
   return unpacked.get(key);
 }
 
-async function bytesOf(name) {
+/** Returns a blob as a response, whose json(), text() or arrayBuffer() is its content. */
+function blobOf(name) {
   const text = atob(document.getElementById("blob-" + name).textContent);
-  const packed = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) {
-    packed[i] = text.charCodeAt(i);
-  }
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
-async function textOf(name) {
-  return new TextDecoder().decode(await bytesOf(name));
+  const packed = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip")));
 }
 
 /** Returns a value of the page's data. */
 function jsonOf(name) {
-  return once(name, async () => JSON.parse(await textOf(name)));
-}
-
-/** Returns an array of a scene: Float32Array or Uint32Array. */
-async function arrayOf(name, Type) {
-  return new Type((await bytesOf(name)).buffer);
+  return once(name, () => blobOf(name).json());
 }
 
 /** Runs a library's text as a script of the page. */
 function libraryOf(name) {
   return once(name, async () => {
     const script = document.createElement("script");
-    script.textContent = await textOf(name);
+    script.textContent = await blobOf(name).text();
     document.head.append(script);
   });
 }

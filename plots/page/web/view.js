@@ -13,17 +13,19 @@ const DISTANCE = 3.9; // in radii of the scene, for a canvas that is as wide as 
 
 const EDGES = [0, 1, 1, 3, 3, 2, 2, 0, 4, 5, 5, 7, 7, 6, 6, 4, 0, 4, 1, 5, 2, 6, 3, 7]; // corners by bits: x 1; y 2; z 4
 
-/** Returns triangles without shared corners, so that each has its own normal and colour. */
-function trianglesGeometry(points, faces, colourOf) {
-  const positions = new Float32Array(faces.length * 3);
-  const colours = new Float32Array(faces.length * 3);
-  for (let k = 0; k < faces.length; ++k) {
-    positions.set(points.subarray(3 * faces[k], 3 * faces[k] + 3), 3 * k);
-    const colour = colourOf(Math.floor(k / 3));
-    colours.set([colour.r, colour.g, colour.b], 3 * k);
-  }
+function geometryOf(positions) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  return geometry;
+}
+
+/** Returns triangles without shared corners, so that each has its own normal and colour. */
+function trianglesGeometry(points, faces, colourOf) {
+  const shared = geometryOf(points);
+  shared.setIndex(new THREE.BufferAttribute(faces, 1));
+  const geometry = shared.toNonIndexed();
+  const colours = new Float32Array(3 * faces.length);
+  faces.forEach((_, k) => colourOf(Math.floor(k / 3)).toArray(colours, 3 * k));
   geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
   geometry.computeVertexNormals();
   return geometry;
@@ -31,27 +33,13 @@ function trianglesGeometry(points, faces, colourOf) {
 
 /** Returns the edges of boxes `first` to `end` - 1; a box is min x, y, z, max x, y, z. */
 function boxesGeometry(sides, first, end) {
-  const positions = new Float32Array((end - first) * EDGES.length * 3);
-  let place = 0;
+  const positions = [];
   for (let box = first; box < end; ++box) {
     for (const corner of EDGES) {
-      for (let axis = 0; axis < 3; ++axis) {
-        positions[place++] = sides[6 * box + axis + ((corner >> axis) & 1 ? 3 : 0)];
-      }
+      positions.push(...[0, 1, 2].map((axis) => sides[6 * box + axis + ((corner >> axis) & 1 ? 3 : 0)]));
     }
   }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
-  return geometry;
-}
-
-/** Returns 1 for each triangle that is in a pair, otherwise 0. */
-function marks(pairs, count) {
-  const found = new Uint8Array(count);
-  pairs.forEach((triangle) => {
-    found[triangle] = 1;
-  });
-  return found;
+  return geometryOf(new Float32Array(positions));
 }
 
 class View {
@@ -59,64 +47,38 @@ class View {
   constructor(facts, number) {
     this.facts = facts;
     this.number = number;
-    this.level = Math.min(facts.levels.length - 1, 6);
+    const deepest = facts.levels.length - 1;
+    const range = {min: 0, max: Math.max(0, deepest), step: 1, value: Math.min(deepest, 6)};
     this.canvas = element("canvas", {role: "img", "aria-label": `${facts.scene} in three dimensions`, tabindex: "0"});
     this.said = element("output", {class: "note"});
-    this.slider = element("input", {
-      type: "range",
-      min: 0,
-      max: Math.max(0, facts.levels.length - 1),
-      step: 1,
-      value: this.level,
-      input: () => this.show(),
-    });
+    this.slider = element("input", {type: "range", ...range, input: () => this.show()});
     this.triangles = menu(["all", ["some", "those that collide"], "none"], () => this.show());
-    this.hasBoxes = element("input", {type: "checkbox", checked: true, change: () => this.show()});
-    this.element = element(
-      "figure",
-      {class: "view"},
-      element("figcaption", {}, element("h3", {}, this.title()), this.verdict()),
-      element(
-        "div",
-        {class: "controls"},
-        element("label", {}, "Level ", this.slider),
-        this.said,
-        element("label", {}, this.hasBoxes, " Boxes"),
-        element("label", {}, "Triangles ", this.triangles)
-      ),
-      element("div", {class: "canvas"}, this.canvas),
-      this.legend()
+    this.hasBoxes = element("input", {type: "checkbox", checked: "", change: () => this.show()});
+    const controls = element(
+      "div",
+      {class: "controls"},
+      element("label", {}, "Level ", this.slider),
+      this.said,
+      element("label", {}, this.hasBoxes, " Boxes"),
+      element("label", {}, "Triangles ", this.triangles)
     );
+    const verdict = element("p", {}, badge(facts.state), facts.said);
+    const head = element("figcaption", {}, element("h3", {}, facts.title), verdict);
+    const box = element("div", {class: "canvas"}, this.canvas);
+    this.element = element("figure", {class: "view"}, head, controls, box, this.legend());
     this.canvas.chart = this;
     seen.observe(this.canvas);
   }
 
-  title() {
-    const {facts} = this;
-    const frame = facts.frame ? `, frame ${facts.frame}` : "";
-    return `${facts.scene}${frame}: ${plural(facts.triangles, "triangle")}, ${facts.who}`;
-  }
-
-  verdict() {
-    const {facts} = this;
-    const sentences = [
-      ` with ${facts.against}${facts.why ? `: ${facts.why}` : ""}.`,
-      `${plural(facts.pairs, "pair")} of triangles have boxes that overlap,`,
-      `${facts.contacts.toLocaleString("en")} intersect; neighbours that share a vertex are left out. Built and queried on`,
-      `${facts.device}, commit ${facts.commit.slice(0, 10)}${facts.dirty ? " with local changes" : ""}.`,
-    ];
-    return element("p", {}, badge(facts.state), sentences.join(" "));
-  }
-
   legend() {
-    const entries = [
-      ["contact", "intersects another triangle"],
-      ["pair", "its box overlaps another's"],
-      ["inner", "box of an inner node"],
-      ["leaf", "box of a leaf"],
-    ];
-    const shown = entries.map(([key, text]) => element("span", {}, swatch({colour: SCENE[key], symbol: "square"}), text));
-    return element("p", {class: "legend plain"}, ...shown);
+    const entries = {
+      contact: "intersects another triangle",
+      pair: "its box overlaps another's",
+      inner: "box of an inner node",
+      leaf: "box of a leaf",
+    };
+    const named = ([key, text]) => element("span", {}, swatch({colour: SCENE[key], symbol: "square"}), text);
+    return element("p", {class: "legend plain"}, ...Object.entries(entries).map(named));
   }
 
   /** Draws the scene when it comes into view. Shows a warning if there is no WebGL. */
@@ -130,14 +92,7 @@ class View {
       return;
     }
     await this.fill();
-    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
-    this.controls.target.copy(this.middle);
-    this.controls.addEventListener("change", () => this.render());
-    this.controls.update();
-    dark.addEventListener("change", () => {
-      this.paint();
-      this.render();
-    });
+    dark.addEventListener("change", () => this.paint());
     new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     this.show();
     this.resize();
@@ -145,78 +100,78 @@ class View {
   }
 
   async fill() {
-    const name = (array) => `view-${this.number}-${array}`;
-    const [points, boxes] = await Promise.all(["points", "boxes"].map((one) => arrayOf(name(one), Float32Array)));
-    const [faces, pairs, contacts] = await Promise.all(
-      ["faces", "pairs", "contacts"].map((one) => arrayOf(name(one), Uint32Array))
-    );
-    this.boxes = boxes;
-    const [inPair, inContact] = [marks(pairs, faces.length / 3), marks(contacts, faces.length / 3)];
+    const arrayOf = async ([name, Type]) => new Type(await blobOf(`view-${this.number}-${name}`).arrayBuffer());
+    const arrays = {points: Float32Array, boxes: Float32Array, faces: Uint32Array, pairs: Uint32Array, contacts: Uint32Array};
+    const [points, boxes, faces, ...found] = await Promise.all(Object.entries(arrays).map(arrayOf));
+    const [inPair, inContact] = found.map((pairs) => new Set(pairs));
     const colours = Object.fromEntries(Object.entries(SCENE).map(([key, value]) => [key, new THREE.Color(value)]));
-    const material = () =>
-      new THREE.MeshLambertMaterial({
-        vertexColors: THREE.VertexColors,
-        side: THREE.DoubleSide,
-        polygonOffset: true,
-        polygonOffsetFactor: 1,
-        polygonOffsetUnits: 1,
-      });
-    const colouring = (triangle) =>
-      inContact[triangle] ? colours.contact : inPair[triangle] ? colours.pair : colours.plain;
-    const some = faces.filter((_, k) => inPair[Math.floor(k / 3)] || inContact[Math.floor(k / 3)]);
-    const places = [...inPair.keys()].filter((triangle) => inPair[triangle] || inContact[triangle]);
-    this.mesh = new THREE.Mesh(trianglesGeometry(points, faces, colouring), material());
-    this.part = new THREE.Mesh(trianglesGeometry(points, some, (k) => colouring(places[k])), material());
+    const kindOf = (triangle) => (inContact.has(triangle) ? "contact" : inPair.has(triangle) ? "pair" : "plain");
+    const material = new THREE.MeshLambertMaterial({
+      vertexColors: THREE.VertexColors,
+      side: THREE.DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
+    this.boxes = boxes;
+    this.mesh = new THREE.Mesh(trianglesGeometry(points, faces, (triangle) => colours[kindOf(triangle)]), material);
+    const colliding = Uint32Array.from(faces.keys()).filter((corner) => kindOf(Math.floor(corner / 3)) !== "plain");
+    this.colliding = new THREE.BufferAttribute(colliding, 1);
     this.lines = ["inner", "leaf"].map(
       (kind) => new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: SCENE[kind]}))
     );
+    this.camera = this.placedCamera();
     this.scene = new THREE.Scene();
+    this.scene.add(this.camera, new THREE.AmbientLight("#ffffff", 0.55), this.mesh, ...this.lines);
     this.paint();
-    this.camera = new THREE.PerspectiveCamera(FIELD, 1, 0.01, 100);
-    const lamp = new THREE.DirectionalLight("#ffffff", 0.6);
-    lamp.position.set(0.5, 1, 0.8);
-    this.camera.add(lamp);
-    this.scene.add(this.camera, new THREE.AmbientLight("#ffffff", 0.55), this.mesh, this.part, ...this.lines);
-    this.place();
   }
 
   /** Gives the scene the page's background. */
   paint() {
     this.scene.background = new THREE.Color(colour("card"));
+    this.render();
   }
 
-  /** Places the camera so that the whole scene is visible, whatever its size. */
-  place() {
+  /** Returns a camera with a lamp, from where the whole scene is visible, whatever its size, and that the reader moves. */
+  placedCamera() {
     this.mesh.geometry.computeBoundingSphere();
     const {center, radius} = this.mesh.geometry.boundingSphere;
     const size = radius || 1;
-    this.middle = center;
     const {clientWidth, clientHeight} = this.canvas.parentElement;
     const distance = (DISTANCE * size) / Math.min(1, clientWidth / clientHeight);
-    this.camera.position.copy(center).add(new THREE.Vector3(...SEEN_FROM).normalize().multiplyScalar(distance));
-    this.camera.near = size / 100;
-    this.camera.far = size * 100;
+    const camera = new THREE.PerspectiveCamera(FIELD, 1, size / 100, size * 100);
+    camera.position.copy(center).add(new THREE.Vector3(...SEEN_FROM).setLength(distance));
+    const lamp = new THREE.DirectionalLight("#ffffff", 0.6);
+    lamp.position.set(0.5, 1, 0.8);
+    camera.add(lamp);
+    const controls = new THREE.OrbitControls(camera, this.canvas);
+    controls.target.copy(center);
+    controls.update();
+    controls.addEventListener("change", () => this.render());
+    return camera;
   }
 
+  /** Shows what the controls choose. */
   show() {
-    this.level = Number(this.slider.value);
-    const level = this.facts.levels[this.level] || {count: 0, leaves: 0};
-    this.said.textContent = this.facts.levels.length
-      ? `${this.level} of ${this.facts.levels.length - 1}: ${plural(level.count, "box").replace("boxs", "boxes")}, ` +
-        `${level.leaves.toLocaleString("en")} of leaves`
+    const chosen = Number(this.slider.value);
+    const {levels} = this.facts;
+    const level = levels[chosen] || {count: 0, leaves: 0};
+    const boxes = plural(level.count, "box").replace("boxs", "boxes");
+    this.said.textContent = levels.length
+      ? `${chosen} of ${levels.length - 1}: ${boxes}, ${counted(level.leaves)} of leaves`
       : "no boxes: the tree is wrong";
     if (!this.scene) {
       return;
     }
-    const first = this.facts.levels.slice(0, this.level).reduce((sum, one) => sum + one.count, 0);
+    const first = levels.slice(0, chosen).reduce((sum, one) => sum + one.count, 0);
     const leaves = first + level.count - level.leaves;
     [[first, leaves], [leaves, first + level.count]].forEach(([from, to], k) => {
       this.lines[k].geometry.dispose();
       this.lines[k].geometry = boxesGeometry(this.boxes, from, to);
       this.lines[k].visible = this.hasBoxes.checked;
     });
-    this.mesh.visible = this.triangles.value === "all";
-    this.part.visible = this.triangles.value === "some";
+    this.mesh.visible = this.triangles.value !== "none";
+    this.mesh.geometry.setIndex(this.triangles.value === "some" ? this.colliding : null);
     this.render();
   }
 
