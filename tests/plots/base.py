@@ -1,6 +1,8 @@
 """Shared by tests of plots: the source root (each test's only argument), generated result files and runs, and ways to run
 scripts."""
 import copy
+import functools
+import importlib
 import json
 import os
 import pathlib
@@ -50,6 +52,15 @@ def run_of(*all_cells: Raw, **facts: Any) -> Any:
     return results.Run(pathlib.Path("made.json"), document(*all_cells, **facts))
 
 
+@functools.cache
+def load_scripts() -> None:
+    """Loads what scripts import, once for all their forks, and puts a small library in the place of plotly.js, which takes long to pack."""
+    for name in ("figures.catalog", "page.report", "commands.compare", "commands.export", "commands.merge", "commands.plot", "commands.show"):
+        importlib.import_module(f"plots.{name}")
+    html = importlib.import_module("plots.page.html")
+    html.plotly_file = lambda: html.PARTS / "theme.js"
+
+
 def code_of_script() -> int:
     """Runs the script in sys.argv as the main program, and returns the exit code that the interpreter would give."""
     code = 1
@@ -81,10 +92,11 @@ class InFolder(unittest.TestCase):
         return path
 
     def run_script(self, name: str, *arguments: object) -> subprocess.CompletedProcess:
-        """Runs a file or folder of plots, named before its first words, as from a shell, but in a fork of this process, which has already loaded matplotlib."""
+        """Runs a file or folder of plots, named before its first words, as from a shell, but in a fork of this process, which has loaded it."""
+        load_scripts()
         script, *words = name.split()
         command = [str(ROOT / "plots" / script), *words, *map(str, arguments)]
-        with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as errors:
+        with tempfile.TemporaryFile("w+", errors="surrogateescape") as out, tempfile.TemporaryFile("w+", errors="surrogateescape") as errors:
             sys.stdout.flush(), sys.stderr.flush()
             if (child := os.fork()) == 0:
                 os.dup2(out.fileno(), 1)

@@ -6,16 +6,33 @@ import pathlib
 import re
 import unittest
 
-from base import ALL_CASES, GOLDEN, ROOT, InFolder, golden  # first: it adds the source root to sys.path
+from base import ALL_CASES, GOLDEN, ROOT, InFolder, Raw, golden  # first: it adds the source root to sys.path
 
 from plots.draw import cell_map, figure, pipelines, style
-from plots.figures import fig8, frame_bars, overview, roofline, scaling, swept_bars, table1
+from plots.figures import catalog, fig8, frame_bars, overview, roofline, scaling, swept_bars, table1
 from plots.files import output
 from plots.read import results
 from plots.read.cells import Cell
 from plots.words import names, tables
 from PIL import Image
 from plots.draw.style import plt
+
+
+def svg(run: results.Run, name: str) -> str:
+    """Returns the text of a figure."""
+    return style.content(catalog.pictures_of(run)[name](), ".svg").decode()
+
+
+class Drawn(InFolder):
+    """A test that draws, in this process."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        style.set_up()
+        self.addCleanup(plt.close, "all")
+
+    def drawn(self, name: str, document: Raw, picture: str = "") -> str:
+        return svg(results.load(self.written(document, f"{name}.json")), picture or name)
 
 
 class Scripts(InFolder):
@@ -25,7 +42,7 @@ class Scripts(InFolder):
         self.assertGreater(png.stat().st_size, 20_000, png)
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
-    def test_all_draws_every_figure(self) -> None:
+    def test_all_draws_every_figure_and_one_alone_is_the_same_byte_for_byte(self) -> None:
         axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept", "frames", "impacts")
         figures = {name: (name,) for name in ("table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress", "swept", "skips",
                                               "rebuild", "pairs", "families", "quality", "table1")}
@@ -37,14 +54,9 @@ class Scripts(InFolder):
             self.assert_pictures(picture)
         self.assertEqual({path.stem for path in (self.folder / "out").iterdir()}, {*pictures, "headlines-overview"})  # a small one
         self.assert_says_what_a_reader_must_know(self.folder / "out" / "table1.svg")
-
-    def test_one_figure_alone_is_the_same_as_among_all_byte_for_byte(self) -> None:
-        for name, file, picture in (("table1", "table1", "table1"), ("fig9", "table2", "table2-fig9"), ("pairs", "pairs", "pairs")):
-            for folder, of in (("one", f"figures --only {name}"), ("all", "figures")):
-                self.made(of, GOLDEN / f"{file}.json", "--out", self.folder / folder)
-            for end in ("png", "svg"):
-                one, two = ((self.folder / folder / f"{picture}.{end}").read_bytes() for folder in ("one", "all"))
-                self.assertEqual(one, two, picture)
+        self.made("figures --only fig9", GOLDEN / "table2.json", "--out", self.folder / "one")
+        for alone in (self.folder / "one").iterdir():
+            self.assertEqual(alone.read_bytes(), (self.folder / "out" / alone.name).read_bytes(), alone.name)
 
     def assert_says_what_a_reader_must_know(self, svg: pathlib.Path) -> None:
         text = svg.read_text(encoding="utf-8")
@@ -58,26 +70,6 @@ class Scripts(InFolder):
         self.assertIn("gave a wrong answer on bunny: box 7", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
-    def test_variants_of_one_builder_are_told_apart(self) -> None:
-        first = next(c for c in self.document["cells"] if c["builder"]["name"] == "oibvh-multi")
-        second = copy.deepcopy(first)
-        first["builder"]["options"] = {"order": "morton30", "leaves": "mesh"}
-        second["builder"]["options"] = {"order": "morton30", "leaves": "sorted"}
-        self.document["cells"] = [first, second]
-        self.made("figures --only table1", self.written(self.document), "--out", self.folder / "out")
-        text = (self.folder / "out" / "table1.svg").read_text(encoding="utf-8")
-        self.assertIn("oibvh-multi (mesh leaves)", text)
-        self.assertIn("oibvh-multi (sorted leaves)", text)
-
-
-    def test_experiments_of_ones_own_are_drawn_as_what_they_can_be(self) -> None:
-        for name, figures in (("scaling", ["mine-scaling"]), ("quality", ["mine-orders"]), ("pairs", ["mine-frames"])):
-            document = golden(name)
-            for cell in document["cells"]:
-                cell["experiment"] = "one-of-mine"
-            done = self.made("figures", self.written(document, "mine.json"), "--out", self.folder / name)
-            self.assertEqual({path.stem for path in (self.folder / name).iterdir()} & set(figures), set(figures), done.stdout)
-
     def test_a_file_without_a_figure_is_told_what_it_holds(self) -> None:
         for cell in self.document["cells"]:
             cell["experiment"] = "smoke"
@@ -90,6 +82,30 @@ class Scripts(InFolder):
         done = self.run_script("figures", self.folder, "--out", self.folder / "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""), "in a folder it is passed over")
 
+    def test_cells_of_several_devices_make_no_picture(self) -> None:
+        source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}
+        self.document["merged_from"] = [source, source | {"id": "b", "driver": "2"}]
+        done = self.made("figures", self.written(self.document), "--out", self.folder / "out", code=3)
+        self.assertIn("merged from several devices, which no figure tells apart: one, driver 1; one, driver 2", done.stderr)
+
+
+class Documents(Drawn):
+    def test_variants_of_one_builder_are_told_apart(self) -> None:
+        first = next(c for c in self.document["cells"] if c["builder"]["name"] == "oibvh-multi")
+        second = copy.deepcopy(first)
+        first["builder"]["options"] = {"order": "morton30", "leaves": "mesh"}
+        second["builder"]["options"] = {"order": "morton30", "leaves": "sorted"}
+        text = self.drawn("table1", self.document | {"cells": [first, second]})
+        self.assertIn("oibvh-multi (mesh leaves)", text)
+        self.assertIn("oibvh-multi (sorted leaves)", text)
+
+    def test_experiments_of_ones_own_are_drawn_as_what_they_can_be(self) -> None:
+        for name, picture in (("scaling", "mine-scaling"), ("quality", "mine-orders"), ("pairs", "mine-frames")):
+            document = golden(name)
+            for cell in document["cells"]:
+                cell["experiment"] = "one-of-mine"
+            self.assertIn("</svg>", self.drawn("mine", document, picture))
+
     def test_a_file_without_a_figure_of_its_own_gets_bars_of_medians(self) -> None:
         self.document["cells"] = [{**cell, "experiment": "mine"} for cell in self.document["cells"]
                                   if cell["scene"]["name"] == "bunny"]
@@ -100,11 +116,7 @@ class Scripts(InFolder):
         for (_, scene, _), panel in bars.items():
             wanted = sorted((cell.median_ns(), cell.pipeline) for cell in run.cells if cell.scene == scene and cell.has_times)
             self.assertEqual([(ns, name) for name, ns, _ in panel], wanted)
-        path = self.written(self.document, "mine.json")
-        done = self.made("figures", path, "--out", self.folder / "out")
-        self.assertEqual(done.stdout.split(), [str(self.folder / "out" / f"mine-overview.{end}") for end in ("png", "svg")])
-        text = (self.folder / "out" / "mine-overview.svg").read_text(encoding="utf-8")
-        self.assertIn("bunny, build, mine", text)
+        self.assertIn("bunny, build, mine", self.drawn("mine", self.document, "mine-overview"))
 
     def test_bars_of_frames_are_means_and_many_scenes_are_counted(self) -> None:
         def made(scene: str, frame: int, ns: int) -> dict:
@@ -120,30 +132,17 @@ class Scripts(InFolder):
         texts = "".join(text.get_text() for text in overview.draw(run).texts)
         self.assertIn("2 more scenes not drawn.", texts)
 
-    def test_cells_of_several_devices_make_no_picture(self) -> None:
-        source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}
-        self.document["merged_from"] = [source, source | {"id": "b", "driver": "2"}]
-        done = self.made("figures", self.written(self.document), "--out", self.folder / "out", code=3)
-        self.assertIn("merged from several devices, which no figure tells apart: one, driver 1; one, driver 2", done.stderr)
-
     def test_other_costs_are_named_and_not_held_against_the_papers(self) -> None:
         document = golden("table4")
         document["run"]["node_costs"] = {"inner": 2, "triangle": 0.5}
-        self.made("figures --only table4", self.written(document, "table4.json"), "--out", self.folder / "out")
-        text = (self.folder / "out" / "table4.svg").read_text(encoding="utf-8")
+        text = self.drawn("table4", document)
         self.assertIn("An inner node costs 2.0, a triangle 0.5", text)
         self.assertNotIn("paper", text)
 
 
-class Frames(InFolder):
-    def drawn(self, script: str, name: str, document: dict | None = None) -> str:
-        """Returns the text of the SVG."""
-        self.made(script, self.written(document or golden(name), f"{name}.json"), "--out", self.folder)
-        svg, = self.folder.glob("*.svg")
-        return svg.read_text(encoding="utf-8")
-
+class Frames(Drawn):
     def test_tables_say_what_a_reader_must_know(self) -> None:
-        text = self.drawn("figures --only table2", "table2")
+        text = self.drawn("table2", golden("table2"))
         for words in ("cloth-ball* (unc_cloth_ball): 92,230 triangles, 2 frames", "* was not there", "Invented GPU",
                       "Wang et al. 2018, printed (GTX 1080, another machine)", "n-body, between objects: 146,480 triangles, "
                       "1 frame", "bvtt (jump 2) over oibvh-multi", "front over oibvh-multi, 1 of 2 frames",
@@ -168,7 +167,7 @@ class Frames(InFolder):
         self.assertEqual([cell.frame for cell in ours.later.cells], [1])
         self.assertEqual(ours.first_ms, ours.cells[0].median_ns() * 1e-6)
         self.assertEqual(ours.label, "group over oibvh-multi (hilbert30, sorted leaves), contacts sat-f32 †")
-        text = self.drawn("figures --only table2", "table2", document)
+        text = self.drawn("table2", document)
         for words in (f", first {tables.three_digits(ours.first_ms)}<", "0 missed, 11 false of 200 found"):
             self.assertIn(words, text)
         self.assertEqual(pipelines.apart({"": [ours]}), "over frames after the first")
@@ -179,35 +178,22 @@ class Frames(InFolder):
         for cell in document["cells"]:
             cell["scene"] |= {"name": "mine"}
             cell["scene"].pop("stand_in_for", None)
-        text = self.drawn("figures --only table2", "table2", document)
+        text = self.drawn("table2", document)
         self.assertIn("mine: ", text)
         for words in ("was not there", "printed", "mine*"):
             self.assertNotIn(words, text)
 
     def test_libraries_are_said_to_be_on_the_host_and_long_bars_to_be_shortened(self) -> None:
-        text = self.drawn("figures --only families", "families")
+        text = self.drawn("families", golden("families"))
         for words in ("On the host and its clock: embree, fcl-refit (Invented CPU).", "cloth-ball* (unc_cloth_ball)",
                       "implicit trees: leaf over oibvh-multi", "shortened to 12 times"):
             self.assertIn(words, text)
 
     def test_the_most_pairs_that_wait_are_of_those_that_count_them(self) -> None:
-        text = self.drawn("figures --only fig10", "table2")
+        text = self.drawn("table2", golden("table2"), "table2-fig10")
         self.assertIn("784,955 for 738,840 pairs", text)  # of the second of two frames
         self.assertIn("* was not there", text)
         self.assertNotIn("leaf over oibvh-multi<", text)
-
-    def test_a_wrong_answer_makes_no_picture(self) -> None:
-        scripts = {"table2": ("figures --only table2", "figures --only fig9", "figures --only fig10", "figures"),
-                   "table3": ("figures --only table3",), "families": ("figures --only families",)}
-        for name, those in scripts.items():
-            document = golden(name)
-            document["cells"][3]["check"] = {"verdict": "differs", "detail": "pair 7"}
-            who = results.Cell(document["cells"][3]).called
-            for script in those:
-                done = self.made(script, self.written(document, f"{name}.json"), "--out", self.folder / "out", code=3)
-                self.assertIn(f"{who} gave a wrong answer on", done.stderr)
-                self.assertIn("pair 7", done.stderr)
-                self.assertFalse((self.folder / "out").exists())
 
     def test_a_wrong_answer_from_outside_is_a_failure_beside_the_others(self) -> None:
         document = golden("families")
@@ -217,15 +203,14 @@ class Frames(InFolder):
         wrong["check"] = {"verdict": "differs", "detail": "pair 7"}
         wrong["outside"] = {"name": wrong["collider"]["name"], "library": "Mine", "version": "1", "licence": "MIT", "device": "host",
                             "file": "mine.so", "as": "plugin"}
-        text = self.drawn("figures --only rivals", "rivals", document)
+        text = self.drawn("rivals", document)
         self.assertIn("wrong answer: pair 7", text)
         self.assertIn("written pairs of overlapping boxes", text)
 
     def test_a_file_without_frames_makes_no_picture(self) -> None:
-        for name in ("table2", "fig9", "fig10", "pairs"):
-            done = self.made(f"figures --only {name}", GOLDEN / "table1.json", "--out", self.folder / "out", code=3)
-            self.assertIn("no measured frame of ", done.stderr)
-            self.assertFalse((self.folder / "out").exists())
+        for name in ("table2", "fig9", "fig10", "pairs", "swept"):
+            with self.assertRaisesRegex(results.Refused, "no measured frame of "):
+                catalog.NAMED[name](results.load(GOLDEN / "table1.json"))
 
     def test_a_frame_is_from_its_first_start_to_its_last_end(self) -> None:
         run = results.load(GOLDEN / "table2.json")
@@ -466,11 +451,6 @@ class Swept(InFolder):
             self.assertEqual(text.xy[0], bar.get_width())
             self.assertAlmostEqual(text.xy[1], bar.get_y() + bar.get_height() / 2)
             self.assertEqual(text.get_text().strip(), tables.three_digits(bar.get_width()))
-
-    def test_frames_that_are_not_swept_make_no_picture(self) -> None:
-        for cell in self.document["cells"]:
-            cell.pop("swept", None)
-        self.assertEqual(self.run_script("figures --only swept", self.written(self.document), "--out", self.folder).returncode, 3)
 
 
 class Looks(InFolder):
