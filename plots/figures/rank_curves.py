@@ -3,7 +3,6 @@
 strong and weak: left the speed-up (of weak: the efficiency) against ranks, with the ideal and the model's curve; right the median
 time of each stage, least, median and most over the ranks. halo: triangles sent, in per cent, by partition and boxes a rank.
 """
-import pathlib
 import statistics
 from typing import Any
 
@@ -128,11 +127,3 @@ def draw(document: dict[str, Any]) -> plt.Figure:
     drawing.suptitle(f"{runs[0]['scene']['name']}{' and as much on every rank' if kind == 'weak' else ''}, "
                      f"{runs[0]['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
     return drawing
-
-
-def main(words: list[str]) -> None:
-    style.set_up()
-    folder = pathlib.Path(words[words.index("--out") + 1])
-    for name in words[:words.index("--out")]:
-        path = pathlib.Path(name)
-        style.save(draw(rank_files.read(path)), folder, path.name.split(".")[0], [path], True)

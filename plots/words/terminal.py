@@ -49,25 +49,6 @@ def dressed(text: str, style: str) -> str:
     return f"{style}{text}{PLAIN}" if style and text.strip() and screen.has_colour else text
 
 
-class MovingLine:
-    """A line on standard error that the next one replaces. Nothing is written unless it is a terminal."""
-
-    def __init__(self) -> None:
-        self.is_terminal, self.shown = sys.stderr.isatty(), ""
-
-    def show(self, text: str) -> None:
-        """Shows the text, cut to the terminal's width."""
-        text = text[:shutil.get_terminal_size().columns - 1]
-        if self.is_terminal and text != self.shown:
-            self.shown = text
-            print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
-
-    def clear(self) -> None:
-        if self.shown:
-            self.shown = ""
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
-
-
 def with_codes(text: str) -> str:
     """Returns the text with the terminal's codes in place of the letters that stand for styles."""
     return re.sub(f"[{RED}-{PLAIN}]", lambda letter: CODES[letter[0]] if screen.has_colour else "", text)

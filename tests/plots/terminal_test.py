@@ -148,12 +148,5 @@ class Show(InFolder):
         self.assertIn("\\x1b[31mred", self.piped())
 
 
-class Progress(unittest.TestCase):
-    def test_is_silent_where_there_is_no_terminal(self) -> None:
-        done = subprocess.run([sys.executable, "-c", "from plots.words import terminal; line = terminal.MovingLine(); line.show('1/2'); line.clear()"],
-                              cwd=ROOT, capture_output=True, check=True)
-        self.assertEqual((done.stdout, done.stderr), (b"", b""))
-
-
 if __name__ == "__main__":
     unittest.main()
