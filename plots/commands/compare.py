@@ -20,7 +20,7 @@ def parser() -> command.Parser:
          ("bvhbench compare peers.json --builders karras,oibvh-single", "two builders in one file")], "docs/comparing.md")
     words.add_argument("files", metavar="FILE", nargs="+", type=pathlib.Path,
                        help="earlier result files, one for each process, and as many later ones; with --builders one may be both")
-    words.add_argument("--builders", type=builder_pair, help="as karras,oibvh-single: compare cells of the second builder, in B, "
+    words.add_argument("--builders", type=axes.pair_of, help="as karras,oibvh-single: compare cells of the second builder, in B, "
                        "with those of the first, in A; slower is then no regression, and another answer is")
     words.add_argument("--threshold", type=command.share(10), default="5%",
                        help="the smallest change of time that counts, as 5% or 0.05")
@@ -31,13 +31,6 @@ def parser() -> command.Parser:
                        help="files of two devices: compare verdicts, and times as ratios within a scene")
     words.add_argument("--test-hooks", action="store_true", help=command.argparse.SUPPRESS)  # for the tests of this command
     return words
-
-
-def builder_pair(text: str) -> tuple[str, str]:
-    try:
-        return axes.pair_of(text)
-    except ValueError as error:
-        raise command.argparse.ArgumentTypeError(str(error)) from error
 
 
 def main(words: list[str]) -> int:

@@ -1,4 +1,5 @@
 """What two files without a common cell differ in, and how one builder is compared with another."""
+import argparse
 import copy
 import pathlib
 from typing import Any
@@ -55,10 +56,10 @@ def require_shared(names: tuple[pathlib.Path, pathlib.Path], first: list[Cell], 
 
 
 def pair_of(text: str) -> tuple[str, str]:
-    """Parses "A,B". Raises ValueError."""
+    """Parses "A,B", for an argument parser."""
     names = tuple(text.split(","))
     if len(names) != 2 or not all(names) or names[0] == names[1]:
-        raise ValueError(f"must be two builders, as karras,oibvh-single, not '{text}'")
+        raise argparse.ArgumentTypeError(f"must be two builders, as karras,oibvh-single, not '{text}'")
     return names
 
 

@@ -62,14 +62,6 @@ def text(run: results.Run, printed: str = "") -> str:
     return table.text() + all_cells.outside([cell for cells in groups for cell in cells]) if groups else ""
 
 
-def table2(run: results.Run) -> str:
-    return text(run, "table2")
-
-
-def table3(run: results.Run) -> str:
-    return text(run, "table3")
-
-
 def mean(cells: list[Cell], counter: str, scale: float, more: float = 0) -> float | None:
     """Returns the mean of a counter, or None if a frame lacks it."""
     if any(counter not in cell.counters for cell in cells):

@@ -51,15 +51,10 @@ def by_rule(found: list[Saving]) -> str:
     table = Table("<rule", "<scene", "pipelines", "<work", "avoided", "times")
     shown = [one for one in found if one.skips_something]
     for (rule, scene, work, is_forced), those in sorted(
-            grouped(shown, lambda one: (one.rule, one.first.scene, one.work, one.is_forced)).items(), key=lambda group: order(group[0][0])):
+            grouped(shown, lambda one: (one.rule, one.first.scene, one.work, one.is_forced)).items(), key=lambda group: savings.order(group[0][0])):
         table.row(rule + (", forced" if is_forced else ""), scene, str(len(those)), work, span([100 * one.share(work) for one in those], 0) + " %",
                   span([savings.times(one) for one in those], 2))
     return f"by rule:\n{table.text()}" if table.rows else ""
-
-
-def order(rule: str) -> int:
-    """Returns the place of a rule in `list skips`."""
-    return [*savings.WORK, rule].index(rule)
 
 
 def span(values: list[float], digits: int) -> str:

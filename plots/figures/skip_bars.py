@@ -18,11 +18,6 @@ LOOKS = (("#0072B2", "o"), ("#56B4E9", "s"), ("#009E73", "D"), ("#D55E00", "^"),
          ("#999999", "*"))
 
 
-def rules_of(found: list[Saving]) -> list[str]:
-    """Returns the rules in the order of `list skips`."""
-    return sorted({one.rule for one in found}, key=lambda rule: [*savings.WORK, rule].index(rule))
-
-
 def draw_scene(panels: list[plt.Axes], scene: list[Saving], rules: list[str], looks: dict[str, tuple[str, str]]) -> None:
     """Draws times and shares of work of one scene."""
     step = 0.6 / max(len(looks) - 1, 1)
@@ -46,7 +41,7 @@ def draw(run: results.Run) -> plt.Figure:
     found = savings.of_scenes(run.frames(EXPERIMENT))
     if not found:
         raise results.Refused(f"{run.path}: no cell of {EXPERIMENT} is without a rule")
-    rules = rules_of(found)
+    rules = sorted({one.rule for one in found}, key=savings.order)
     looks = {name: LOOKS[place % len(LOOKS)] for place, name in enumerate(dict.fromkeys(one.pipeline for one in found))}
     scenes = results.grouped(found, lambda one: one.first.scene)
     drawing, grid = plt.subplots(len(scenes), 2, figsize=(style.PAGE_WIDTH, 1.1 + len(scenes) * (0.45 + ROW * len(rules))),

@@ -2,6 +2,7 @@
 import lzma
 import os
 import pathlib
+import statistics
 from typing import Any
 
 from ..files import documents
@@ -65,6 +66,5 @@ def stage_times(run: dict[str, Any], clock: str = "host_ns") -> dict[str, list[f
     times: dict[str, list[float]] = {}
     for rank in run["ranks"]:
         for k, stage in enumerate(rank["samples"][0]["stages"] if rank["samples"] else []):
-            own = sorted(sample["stages"][k][clock] for sample in rank["samples"])
-            times.setdefault(stage["stage"], []).append((own[(len(own) - 1) // 2] + own[len(own) // 2]) / 2)
+            times.setdefault(stage["stage"], []).append(statistics.median(sample["stages"][k][clock] for sample in rank["samples"]))
     return times

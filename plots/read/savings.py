@@ -71,6 +71,11 @@ def amount_of(cell: Cell, amount: str) -> float:
     return sum(cell.counters.get(counter, 0) for counter in COUNTERS[amount])
 
 
+def order(rule: str) -> int:
+    """Returns the place of a rule in `list skips`."""
+    return [*WORK, rule].index(rule)
+
+
 def rules_of(cell: Cell, option: str) -> frozenset[str]:
     return frozenset(rule for rule in dict(cell.collider_options).get(option, "").split(", ") if rule)
 

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Tests what `compare` reports about times, counters, verdicts and cells of two result files."""
+"""Tests what `compare` reports about times, counters, verdicts and cells of two result files, and its statistics against tables and
+a simulation."""
+import argparse
 import copy
 import math
 import pathlib
@@ -11,11 +13,12 @@ import numpy
 
 from base import Raw  # first: it adds the source root to sys.path
 
-from plots.comparing import axes, comparison, comparison_text, sides
+from plots.comparing import axes, comparison, comparison_text, sides, student, times
 from plots.comparing.refusals import Rules, require_comparable
 from plots.files.output import WrongUsage
 from plots.read import counters
 from plots.read.cells import Cell
+from plots.read.ranking import rank_below
 
 BUILDERS = ["perfect", "karras", "apetrei", "lbvh-levels", "oibvh-single", "oibvh-multi"]
 FOUR = ["karras", "apetrei", "perfect", "oibvh-multi"]
@@ -208,7 +211,7 @@ class TwoBuilders(unittest.TestCase):
             with self.assertRaisesRegex(WrongUsage, says):
                 self.held(first, second)
         for wrong in ("karras", "karras,", "karras,karras", "a,b,c"):
-            with self.assertRaises(ValueError):
+            with self.assertRaises(argparse.ArgumentTypeError):
                 axes.pair_of(wrong)
 
 
@@ -361,6 +364,33 @@ class Refusals(unittest.TestCase):
             if rules:
                 self.assertEqual(self.said(change, **rules), "")
         self.assertEqual(self.said(lambda raw: raw["run"].update(node_costs={"inner": 1.2, "triangle": 1})), "")
+
+
+class Statistics(unittest.TestCase):
+    def test_quantiles_of_student_s_t_are_those_of_the_tables(self) -> None:
+        for error, freedom, expected in ((0.05, 1, 12.7062), (0.05, 2, 4.3027), (0.05, 3, 3.1824), (0.05, 10, 2.2281), (0.01, 5, 4.0321),
+                                         (0.001, 7, 5.4079), (0.05, 30, 2.0423), (0.01, 120, 2.6174), (0.5, 4, 0.7407)):
+            self.assertAlmostEqual(student.quantile(error, freedom), expected, places=4)
+
+    def test_as_many_means_are_outside_as_the_error_says(self) -> None:
+        values = numpy.random.default_rng(11).normal(0, 1, (4000, 5))
+        margins = student.quantile(0.05, 4) * values.std(axis=1, ddof=1) / numpy.sqrt(5)
+        self.assertAlmostEqual(numpy.mean(numpy.abs(values.mean(axis=1)) > margins), 0.05, delta=0.012)
+
+    def test_the_cells_of_a_scene_share_their_spread(self) -> None:
+        cells = [numpy.array([0.01, -0.01, 0.03, -0.03]), numpy.array([0.0, 0.0, 0.0, 0.0])]
+        spread = times.spread_of(cells)
+        self.assertAlmostEqual(spread.deviation**2, 0.002 / 3 / 2)
+        self.assertEqual(spread.freedom, 4)  # 3 of a cell alone, 2 c / (c + 1) of them for c cells
+        self.assertEqual([times.spread_of([numpy.zeros(8)] * count).freedom for count in (1, 6)], [7, 12])
+        self.assertIsNone(times.spread_of([numpy.zeros(1)]))
+        even = [numpy.full(9, 100.0)] * 4  # a cell whose own differences are all 0 has the spread of the others
+        found = times.time_change(even, even, 0.05, 0.05, spread)
+        self.assertAlmostEqual(numpy.log(found.ratio.high), student.quantile(0.05, 4) * spread.deviation / 2)
+
+    def test_a_median_is_between_the_order_statistics_of_the_tables(self) -> None:
+        for count, error, rank in ((9, 0.05, 2), (20, 0.05, 6), (30, 0.05, 10), (30, 0.01, 8), (100, 0.05, 40), (5, 0.05, 0), (0, 0.05, 0)):
+            self.assertEqual(rank_below(count, error), rank)
 
 
 if __name__ == "__main__":

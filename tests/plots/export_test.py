@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Tests what `export` writes, read back by pandas and checked against a schema of Google Benchmark's format."""
+"""Tests what `export` writes, read back by pandas and checked against a schema of Google Benchmark's format, and what the reader for
+notebooks gives."""
 import io
 import json
+import lzma
 import pathlib
+import tempfile
 import unittest
 
 import jsonschema
@@ -16,6 +19,7 @@ from plots.read import results
 from plots.read.cells import Cell
 
 SCHEMA = json.loads((ROOT / "tests" / "google_benchmark.schema.json").read_text(encoding="utf-8"))
+TABLE1, TABLE2 = GOLDEN / "table1.json", GOLDEN / "table2.json"
 WITH_CELLS = [path for path in sorted(GOLDEN.glob("*.json")) if path.name != "stress.json"]
 
 
@@ -173,6 +177,42 @@ class OfFiles(Exports):
         for words, says in ((("--format", "xml"), "must be google-benchmark, csv or customSmallerIsBetter, not 'xml'"),
                             ((), "--format is required")):
             self.assertIn(says, self.made("__main__.py", "export", hooked, *words, code=2).stderr)
+
+
+class OfRead(unittest.TestCase):
+    def test_there_is_a_row_for_each_stage_of_each_sample(self) -> None:
+        frame = bvhbench_results.read(str(TABLE2))
+        cells = results.everything(TABLE2).all_cells
+        wanted = [(stage["stage"], stage.get("span_ns", stage.get("wall_ns"))) for cell in cells for sample in cell.all_samples
+                  for stage in sample["stages"]]
+        timed = frame[frame.stage.notna()]
+        self.assertEqual(list(zip(timed.stage, timed.ns)), wanted)
+        self.assertEqual(tuple(frame.columns[:len(bvhbench_results.CELL)]), bvhbench_results.CELL)
+        self.assertEqual(set(timed.collider_narrow), {dict(cell.collider_options)["narrow"] for cell in cells})
+        self.assertEqual(set(timed.option_order), {dict(cell.options)["order"] for cell in cells if cell.all_samples})
+        self.assertEqual(frame.file.unique().tolist(), [str(TABLE2)])
+
+    def test_a_cell_without_samples_is_not_lost(self) -> None:
+        frame = bvhbench_results.read(TABLE1)
+        skipped = [cell for cell in results.everything(TABLE1).all_cells if cell.status == "skipped"]
+        self.assertEqual(len(skipped), 1)
+        row, = frame[frame.status == "skipped"].to_dict("records")
+        self.assertEqual((row["builder"], row["ns"] == row["ns"]), (skipped[0].builder, False))
+
+    def test_several_files_packed_or_not_and_their_counters(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            packed = pathlib.Path(folder) / "packed.json.xz"
+            packed.write_bytes(lzma.compress(TABLE1.read_bytes()))
+            frame = bvhbench_results.read([TABLE1, packed], counters=True)
+        self.assertNotIn("nodes_count", bvhbench_results.read(TABLE1))
+        one, other = (frame[frame.file == str(path)].drop(columns="file").reset_index(drop=True) for path in (TABLE1, packed))
+        self.assertTrue(one.equals(other))
+        cell = results.everything(TABLE1).all_cells[0]
+        self.assertEqual(one.nodes_count[0], cell.counters["nodes_count"])
+
+    def test_what_is_no_result_file_is_refused(self) -> None:
+        with self.assertRaisesRegex(bvhbench_results.Refused, "is no result file"):
+            bvhbench_results.read(ROOT / "results" / "paper" / "table1.json")
 
 
 if __name__ == "__main__":

@@ -64,12 +64,6 @@ class Malformed(InFolder):
             path.write_bytes(content)
             self.assert_told(path, words)
 
-    def test_what_is_wrong_in_a_result_is_told_with_its_place(self) -> None:
-        for words, change in CHANGES.items():
-            document = json.loads(TABLE1.read_text(encoding="utf-8"))
-            change(document)
-            self.assert_told(self.written(document, "bad.json"), words)
-
     def commands(self, bad: pathlib.Path, out: pathlib.Path) -> tuple[list[object], ...]:
         return (["show", bad], ["compare", TABLE1, bad], ["merge", bad, "-o", out], ["export", bad, "--format", "csv"],
                 ["plot", bad, "--out", out])
@@ -79,7 +73,7 @@ class Malformed(InFolder):
         for words, change in CHANGES.items():
             document = golden("table1")
             change(document)
-            self.written(document, "bad.json")
+            self.assert_told(self.written(document, "bad.json"), words)
             for command in self.commands(bad, out):
                 done = self.run_script("__main__.py", *command)
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (3, "", 1), done)

@@ -97,20 +97,17 @@ class Figure(InFolder):
         self.assertEqual(names.numbers(["morton63", "mine", "morton30-axis"]), {"morton63": 3, "morton30-axis": 7, "mine": 15})
         self.assertEqual(names.numbers(["morton30-axis", "morton63"]), {"morton63": 3, "morton30-axis": 7})
 
-    def test_keeps_its_numbers_apart(self) -> None:
+    def test_has_a_second_row_for_box_tests_and_keeps_its_numbers_apart(self) -> None:
         drawing = pareto_orders.draw(self.many(with_tests=True))
+        names = [axes.get_ylabel() for axes in drawing.axes if axes.get_ylabel()]
+        self.assertEqual(sorted(names), 2 * ["box tests of a query"] + 2 * ["surface area cost"])
+        self.assertEqual(len(drawing.axes), 6)  # no query uses a host builder's tree
         drawing.draw_without_rendering()
         for axes in drawing.axes:
             # Boxes of the texts without leader lines. Digits are lower than their line height.
             boxes = [labels.Box(*Text.get_window_extent(text).padded(-1).extents) for text in axes.texts]
             for one, other in itertools.combinations(boxes, 2):
                 self.assertEqual(labels.shared(one, other), 0)
-
-    def test_has_a_second_row_for_box_tests_where_there_are_some(self) -> None:
-        drawing = pareto_orders.draw(self.many(with_tests=True))
-        names = [axes.get_ylabel() for axes in drawing.axes if axes.get_ylabel()]
-        self.assertEqual(sorted(names), 2 * ["box tests of a query"] + 2 * ["surface area cost"])
-        self.assertEqual(len(drawing.axes), 6)  # no query uses a host builder's tree
 
     def test_fills_what_no_other_is_as_good_as(self) -> None:
         run = self.many(with_tests=False)

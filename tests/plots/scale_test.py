@@ -3,13 +3,10 @@
 import copy
 import json
 import pathlib
-import sys
-import tempfile
 import unittest
 from typing import Any
 
-ROOT = pathlib.Path(sys.argv.pop())
-sys.path.insert(0, str(ROOT))
+from base import ROOT, InFolder  # first: it adds the source root to sys.path
 
 from plots.comparing import ranks as comparing
 from plots.comparing.refusals import Rules
@@ -104,29 +101,26 @@ class Table(unittest.TestCase):
         self.assertIn("a frame by the model: 3.00 ms, of which the largest part takes 2.00 ms\n",
                       console.text(one | {"part_ns": 2_000_000, "model_ns": 3_000_000}))
 
-    def test_refuses_a_file_without_a_key_that_all_have(self) -> None:
+
+class Broken(InFolder):
+    def assert_refused(self, document: dict, words: str) -> None:
+        with self.assertRaisesRegex(Refused, words):
+            rank_files.read(self.written(document))
+
+    def test_is_a_file_without_a_key_that_all_have(self) -> None:
         document = rank_files.read(HALO)
         del document["runs"][0]["result"]["ranks"]
-        with tempfile.NamedTemporaryFile("w", suffix=".json") as broken:
-            json.dump(document, broken)
-            broken.flush()
-            with self.assertRaisesRegex(Refused, r"not a file of `bvhbench cluster`: result has no 'ranks'"):
-                rank_files.read(broken.name)
+        self.assert_refused(document, r"not a file of `bvhbench cluster`: result has no 'ranks'")
 
-
-    def test_refuses_ranks_and_samples_that_are_uneven(self) -> None:
+    def test_are_ranks_and_samples_that_are_uneven(self) -> None:
         whole = json.loads((ROOT / "tests/fuzz/results/cluster_frames.json").read_text(encoding="utf-8"))
         for change, words in ((lambda ranks: ranks[1]["samples"].pop(), "ranks with different numbers of samples"),
                               (lambda ranks: ranks[0]["samples"].clear(), "ranks with different numbers of samples"),
                               (lambda ranks: ranks[1]["samples"][2]["stages"].pop(), "samples with different stages"),
                               (lambda ranks: ranks[0]["samples"][0].update(stages=[]), "samples with different stages")):
-            document = json.loads(json.dumps(whole))
+            document = copy.deepcopy(whole)
             change(document["ranks"])
-            with tempfile.NamedTemporaryFile("w", suffix=".json") as broken:
-                json.dump(document, broken)
-                broken.flush()
-                with self.assertRaisesRegex(Refused, words):
-                    rank_files.read(broken.name)
+            self.assert_refused(document, words)
 
 
 class Compared(unittest.TestCase):

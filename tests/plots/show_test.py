@@ -315,11 +315,6 @@ class OfAFile(unittest.TestCase):
         self.assertIn("verdict: ", self.show(document(cell())))
         self.assertIn("\n2 cells, 1 agree\n", self.show(document(cell(), wrong(cell()))))
 
-    def test_control_characters_do_not_reach_the_terminal(self) -> None:
-        made = document(cell())
-        made["cells"][0]["scene"]["name"] = "\x1b[31mred"
-        self.assertIn(" on \\x1b[31mred, ", self.show(made))
-
     def test_times_of_years_and_a_cell_without_samples_are_shown(self) -> None:
         made = document(cell(ns=6 * 10**17))
         self.assertIn("600000000 s", self.show(made))

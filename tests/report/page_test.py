@@ -24,16 +24,6 @@ class Whole(Page):
                     return [document.documentElement.scrollWidth, innerWidth, dialog.scrollWidth - dialog.clientWidth];""")
                 self.assertEqual(sizes, [width, width, 0], part)
 
-    def test_the_overview_says_what_ran_on_what(self) -> None:
-        self.browser.open(self.report.page, "#overview")
-        rows = self.rows("What was run on what")
-        self.assertEqual([row[0] for row in rows], [*FILES, "faulty"])
-        self.assertEqual([row[4] for row in rows], ["Invented GPU"] * len(rows))
-        self.assertEqual(rows[-1][3], "1 differs; 1 failed; 1 skipped")
-        facts = self.browser.run("return document.querySelector('#file-0 .facts').textContent")
-        for words in ("Invented GPU", "Invented CPU", "0" * 40, "reproduce table1", "GNU 12.2.0"):
-            self.assertIn(words, facts)
-
     def test_the_same_files_make_the_same_page(self) -> None:
         again = self.report.folder / "again.html"
         report(again, *self.report.files)
