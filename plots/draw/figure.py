@@ -111,15 +111,19 @@ def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Cal
     axes.grid(axis="x")
 
 
+def grid(rows: int, columns: int, inches: float, **more: object) -> tuple[plt.Figure, numpy.ndarray]:
+    """Creates panels of a page's width; returns the figure and its rows of panels."""
+    return plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, inches), squeeze=False, layout="constrained", **more)
+
+
 def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
     """Creates `count` panels in at most `columns` columns; returns figure, panels and columns. `inches`: page and row heights."""
     columns = min(columns, count)
     rows = math.ceil(count / columns)
-    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, inches[0] + inches[1] * rows), squeeze=False,
-                                 layout="constrained", **shared)
-    for axes in list(grid.flat)[count:]:
+    drawing, made = grid(rows, columns, inches[0] + inches[1] * rows, **shared)
+    for axes in list(made.flat)[count:]:
         axes.remove()
-    return drawing, list(grid.flat)[:count], columns
+    return drawing, list(made.flat)[:count], columns
 
 
 def columns_for(labels: list[str], most: int) -> int:

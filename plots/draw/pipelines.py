@@ -7,7 +7,7 @@ from matplotlib.colors import to_rgb
 
 from ..read import results
 from ..words import names
-from . import style
+from . import figure, style
 
 ROW = 0.2  # inches for each bar
 LONGEST_TITLE = 64  # letters, above a panel and not above its labels
@@ -91,8 +91,7 @@ def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
 def panels(scenes: dict[str, list[Pipeline]], more: float) -> tuple[plt.Figure, list[plt.Axes]]:
     """Creates one panel below the other, each with height for its bars and `more` additional bars."""
     rows = [len(shown) + more for shown in scenes.values()]
-    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, ROW * sum(rows) + 0.7), squeeze=False,
-                                 height_ratios=rows, layout="constrained", sharex=True)
+    drawing, grid = figure.grid(len(scenes), 1, ROW * sum(rows) + 0.7, height_ratios=rows, sharex=True)
     return drawing, list(grid[:, 0])
 
 

@@ -10,17 +10,20 @@ what no other method is as good as in both time and error (the Pareto front), an
 """
 import functools
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 
-from ..draw import figure, style
+from ..draw import figure
 from ..read import results
 from . import accuracy_frames, accuracy_narrow, swept_bars
 from .accuracy_points import METHODS, Point, by_input, draw_points, from_zero, legend, log_times, look, median_s
 
 SCENE_COLUMNS = 4
 MOST_QUERIES = 1000
+Value = Callable[[results.Cell], float]
+Text = Callable[[float], str]
 
 
 def build_s(cell: results.Cell) -> float:
@@ -28,20 +31,27 @@ def build_s(cell: results.Cell) -> float:
     return results.median(cell.times_s() - cell.times_s("broad"))
 
 
-def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
-    inputs = by_input(cells)
-    drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
-    from_zero(grid[0].yaxis, [cell.counters["relative_error"] for cell in cells], 1e-17, 1e-16,
-              lambda value: f"1e{round(math.log10(value))}", 6)
-    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
-        points = [Point(1e9 * median_s(cell) / cell.counters["nodes_count"], cell.counters["relative_error"],
-                        cell.accuracy["method"]) for cell in group]
-        log_times(axes, points)
-        draw_points(axes, "sums", points)
-        axes.set_title(name, loc="left")
-        axes.set_xlabel("ns a node")
+def sheet(axis: str, inputs: dict[str, list[results.Cell]], columns: int, inches: float, error: Value, scale: tuple[float, float, Text],
+          time: Value, labels: tuple[str, str], limit: Callable[[plt.Axes, list[Point]], Any] = log_times,
+          **title: float) -> tuple[plt.Figure, list[plt.Axes]]:
+    """Draws a panel for each input and a point for each method. `scale` is that of from_zero, and `limit` sets the axis of times."""
+    drawing, grid, columns = figure.panels(len(inputs), columns, (1.1, inches), sharey=True)
+    from_zero(grid[0].yaxis, [error(cell) for cells in inputs.values() for cell in cells], *scale, 6)
+    for number, (axes, (name, cells)) in enumerate(zip(grid, inputs.items(), strict=True)):
+        points = [Point(time(cell), error(cell), cell.accuracy["method"]) for cell in cells]
+        limit(axes, points)
+        draw_points(axes, axis, points)
+        axes.set_title(name, loc="left", **title)
+        axes.set_xlabel(labels[0])
         if number % columns == 0:
-            axes.set_ylabel("relative error")
+            axes.set_ylabel(labels[1])
+    return drawing, grid
+
+
+def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    drawing, _ = sheet("sums", by_input(cells), SCENE_COLUMNS, 2.0, lambda cell: cell.counters["relative_error"],
+                       (1e-17, 1e-16, lambda value: f"1e{round(math.log10(value))}"),
+                       lambda cell: 1e9 * median_s(cell) / cell.counters["nodes_count"], ("ns a node", "relative error"))
     figure.footer(drawing, run, "accuracy", (
         "Surface area cost of the tree of oibvh-multi, on one core of the host, against long double. Down and left is "
         "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, "sums", cells, 6))
@@ -99,8 +109,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     if not inputs:
         raise results.Refused(f"{run.path}: no tree of the axis codes has a surface area cost")
     measures = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query, M"}
-    drawing, grid = plt.subplots(len(measures) + 1, len(inputs), figsize=(style.PAGE_WIDTH, 7.0), squeeze=False,
-                                 layout="constrained")
+    drawing, grid = figure.grid(len(measures) + 1, len(inputs), 7.0)
     for column, (name, group) in enumerate(inputs.items()):
         costs = [Cost(build_s(cell), median_s(cell, "broad"), cell.accuracy["method"]) for cell in group]
         draw_break_even(grid[-1][column], costs, MOST_QUERIES)
@@ -136,8 +145,7 @@ def distance(cell: results.Cell) -> float:
 
 def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     scenes = results.grouped(cells, lambda cell: cell.scene.rsplit(" at ", 1)[0])
-    drawing, grid = plt.subplots(2, len(scenes), figsize=(style.PAGE_WIDTH, 4.0), squeeze=False, layout="constrained",
-                                 sharex=True)
+    drawing, grid = figure.grid(2, len(scenes), 4.0, sharex=True)
     for column, (scene, there) in enumerate(scenes.items()):
         for method, seen in METHODS["input"].items():
             group = sorted((cell for cell in there if cell.accuracy["method"] == method), key=distance)
@@ -166,20 +174,16 @@ def inflation(cell: results.Cell) -> float:
 
 
 def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
-    inputs = by_input(cells)
-    drawing, grid, columns = figure.panels(len(inputs), 2 if len(inputs) == 4 else 3, (1.1, 2.6), sharey=True)
-    from_zero(grid[0].yaxis, [inflation(cell) for cell in cells], 1e-3, 1e-3, lambda value: f"{value:g}", 6)
-    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
-        points = [Point(1e3 * median_s(cell, "broad"), inflation(cell), cell.accuracy["method"]) for cell in group]
+    def limit(axes: plt.Axes, points: list[Point]) -> None:
         low, high = min(point.time for point in points), max(point.time for point in points)
         axes.set_xlim(low - 0.15 * (high - low) - 0.05 * high, high + 0.3 * (high - low) + 0.05 * high)
-        draw_points(axes, "boxes", points)
+
+    inputs = by_input(cells)
+    drawing, grid = sheet("boxes", inputs, 2 if len(inputs) == 4 else 3, 2.6, inflation, (1e-3, 1e-3, lambda value: f"{value:g}"),
+                          lambda cell: 1e3 * median_s(cell, "broad"), ("query, ms", "false pairs, for each right one"), limit)
+    for axes, group in zip(grid, inputs.values(), strict=True):
         for line, cell in zip(axes.lines[1:], group, strict=True):  # the line of the front comes first, then one line for each point
             line.set_markersize(2.2 * math.sqrt(cell.counters["node_bytes"]))
-        axes.set_title(name, loc="left")
-        axes.set_xlabel("query, ms")
-        if number % columns == 0:
-            axes.set_ylabel("false pairs, for each right one")
     figure.footer(drawing, run, "accuracy", (
         "Areas of points: bytes a box, 6 of u8 to 48 of f64. Rounded outward, boxes miss no pair.",
         "Left and down is better. Filled, joined: no other is as good in both. Times: medians."),
@@ -189,16 +193,9 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     inputs = results.grouped(cells, lambda cell: f"{cell.scene},\n{cell.swept['pairs']}")
-    drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
-    from_zero(grid[0].yaxis, [cell.counters["false_count"] for cell in cells], 1, 1, lambda value: f"{value:,.0f}", 6)
-    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items(), strict=True)):
-        points = [Point(1e3 * median_s(cell, "narrow"), cell.counters["false_count"], cell.accuracy["method"]) for cell in group]
-        log_times(axes, points)
-        draw_points(axes, "impacts", points)
-        axes.set_title(name, loc="left", fontsize=6.5)
-        axes.set_xlabel("narrow phase, ms")
-        if number % columns == 0:
-            axes.set_ylabel("false pairs")
+    drawing, _ = sheet("impacts", inputs, SCENE_COLUMNS, 2.0, lambda cell: cell.counters["false_count"],
+                       (1, 1, lambda value: f"{value:,.0f}"), lambda cell: 1e3 * median_s(cell, "narrow"),
+                       ("narrow phase, ms", "false pairs"), fontsize=6.5)
     missed = sum(cell.counters["missed_count"] for cell in cells)
     figure.footer(drawing, run, "accuracy", (
         f"Pairs found that do not touch between two frames, against CGAL; {missed:,.0f} that do are missed. Left and down is "

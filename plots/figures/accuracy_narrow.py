@@ -79,8 +79,7 @@ def remark(cells: list[results.Cell]) -> str:
 
 def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     methods = by_method(cells)
-    drawing, (errors, times) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 1.5 + ROW * len(methods)), layout="constrained",
-                                            sharey=True, width_ratios=(3, 2))
+    drawing, [[errors, times]] = figure.grid(1, 2, 1.5 + ROW * len(methods), sharey=True, width_ratios=(3, 2))
     from_zero(errors.xaxis, [wrong(cell) for cell in cells], 1e-3, 1, percent, 4)
     low, high = min(map(ns_a_pair, cells)) / 2, max(map(ns_a_pair, cells)) * 1.5
     times.set(xscale="log", xlim=(low, high))
@@ -113,7 +112,7 @@ def draw_classes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
             entries[class_name(cell), f"{method}, wrong"] = (colour, percent(share))
             entries[class_name(cell), f"{method}, ns"] = ("#EEEEEE", tables.three_digits(ns_a_pair(cell)))
     columns = [f"{method}, {what}" for what in ("wrong", "ns") for method in methods]
-    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 2.0 + cell_map.inches(entries, rows)), layout="constrained")
+    drawing, [[axes]] = figure.grid(1, 1, 2.0 + cell_map.inches(entries, rows))
     cell_map.draw(axes, entries, rows, columns)
     axes.axvline(len(methods), color="black", linewidth=0.8)
     handles = [Patch(color=colour, label=label) for colour, label in (

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 
-from ..draw import figure, pipelines, style
+from ..draw import figure, pipelines
 from ..read import ranking_text, results
 from ..read.ranking import OF_QUERY, Ranking, Row
 from ..words import names
@@ -56,8 +56,7 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
          remarks: Sequence[str] = ()) -> plt.Figure:
     scenes = [rows[:MOST_ROWS] for rows in found.scenes.values()][:MOST_SCENES]
     heights = [len(rows) + 2.2 for rows in scenes]
-    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(heights) + 0.9), squeeze=False,
-                                 height_ratios=heights, layout="constrained")
+    drawing, grid = figure.grid(len(scenes), 1, pipelines.ROW * sum(heights) + 0.9, height_ratios=heights)
     there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label)
                           for axes, rows in zip(grid[:, 0], scenes, strict=True)))
     what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}

@@ -39,7 +39,7 @@ def draw(run: results.Run) -> plt.Figure:
     curves = {(model, order): costs for model in models for order in orders if (costs := costs_of(by_model[model], order))}
     if not curves:
         raise results.Refused(f"{run.path}: no mesh of fig13 has the costs of a radix tree and an Oi-BVH")
-    drawing, (cost_axes, ratio_axes) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
+    drawing, [[cost_axes, ratio_axes]] = figure.grid(1, 2, 3.4)
     several = len(orders) > 1
     for (model, order), costs in curves.items():
         line = DASHES[models.index(model) % len(DASHES)]

@@ -69,8 +69,7 @@ def draw(run: results.Run) -> plt.Figure:
     cells = run.timed("fig8", STAGE)
     among = style.in_order(cells)
     curves = {series: curve([cell for cell in cells if style.series_of(cell) == series]) for series in among}
-    drawing, (nodes, triangles) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.6), sharex=True, sharey=True,
-                                               layout="constrained")
+    drawing, [[nodes, triangles]] = figure.grid(1, 2, 3.6, sharex=True, sharey=True)
     for series, points in curves.items():
         times = [(size, seconds) for size, seconds, _ in points]
         for axes, place in ((nodes, 2), (triangles, 0)):

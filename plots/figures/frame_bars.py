@@ -5,7 +5,7 @@ import textwrap
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 
-from ..draw import figure, pipelines, style
+from ..draw import figure, pipelines
 from ..read import results
 from ..words import names, tables
 
@@ -74,8 +74,7 @@ def panels_for(scenes: dict[str, list[pipelines.Pipeline]]) -> tuple[plt.Figure,
     columns = 2 if same and len(shown) > IN_ONE_COLUMN else 1
     rows = [max(len(one) for one in shown[first:first + columns]) + 2.2 + 0.6 * columns
             for first in range(0, len(shown), columns)]
-    drawing, panels = plt.subplots(len(rows), columns, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(rows) + 0.9),
-                                   squeeze=False, height_ratios=rows, layout="constrained")
+    drawing, panels = figure.grid(len(rows), columns, pipelines.ROW * sum(rows) + 0.9, height_ratios=rows)
     flat = list(panels.flat)
     for axes in flat[len(shown):]:
         axes.set_visible(False)

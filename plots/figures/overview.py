@@ -33,8 +33,7 @@ def draw(run: results.Run) -> figure.plt.Figure:
     left_out = [counted(len(panels) - MOST_SCENES, "more scene") + " not drawn."] if len(panels) > MOST_SCENES else []
     panels = panels[:MOST_SCENES]
     rows = [min(len(bars), MOST_BARS) + 2.6 for _, bars in panels]
-    drawing, grid = figure.plt.subplots(len(panels), 1, figsize=(style.PAGE_WIDTH, ROW * sum(rows) + 0.5), squeeze=False,
-                                        height_ratios=rows, layout="constrained")
+    drawing, grid = figure.grid(len(panels), 1, ROW * sum(rows) + 0.5, height_ratios=rows)
     for axes, (key, bars) in zip(grid.flat, panels, strict=True):
         draw_panel(axes, *key, bars[:MOST_BARS])
         left_out += [f"{key[1]}: {len(bars) - MOST_BARS} slower ones not drawn."] if len(bars) > MOST_BARS else []

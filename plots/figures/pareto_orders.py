@@ -56,9 +56,8 @@ class Panels:
         self.columns = min(COLUMNS, len(by_scene))
         lines = math.ceil(len(by_scene) / self.columns)
         rows = lines * len(measures)
-        self.figure, grid = plt.subplots(
-            rows, self.columns * self.clocks, figsize=(style.PAGE_WIDTH, 1.2 + PANEL_HEIGHT * rows), squeeze=False,
-            layout="constrained", width_ratios=(1, HOST_WIDTH)[:self.clocks] * self.columns)
+        self.figure, grid = figure.grid(rows, self.columns * self.clocks, 1.2 + PANEL_HEIGHT * rows,
+                                        width_ratios=(1, HOST_WIDTH)[:self.clocks] * self.columns)
         self.labels: list[tuple[plt.Axes, list[labels.Label], list[labels.Place]]] = []
         unused = set(grid.flat)
         for place, cells in enumerate(by_scene.values()):

@@ -121,7 +121,7 @@ def draw(document: dict[str, Any]) -> plt.Figure:
         return draw_halo(document)
     if runs[0]["count"] != 1:
         raise Refused("there is no cell of one rank to compare with")
-    drawing, (left, right) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 2.8), layout="constrained", width_ratios=(1, 1.4))
+    drawing, [[left, right]] = figure.grid(1, 2, 2.8, width_ratios=(1, 1.4))
     draw_curve(left, runs, kind == "weak")
     draw_stages(right, runs)
     drawing.suptitle(f"{runs[0]['scene']['name']}{' and as much on every rank' if kind == 'weak' else ''}, "

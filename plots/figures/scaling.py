@@ -45,8 +45,7 @@ def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell
     among = style.in_order(cells)
     columns: dict[str, Times] = {stage: lambda cell, stage=stage: cell.times_s(stage) for stage in stages}
     columns[WHOLE] = lambda cell: cell.times_s()
-    drawing, (upper, lower) = plt.subplots(2, len(columns), figsize=(style.PAGE_WIDTH, 4.2), sharex=True, sharey="row",
-                                           layout="constrained", squeeze=False)
+    drawing, (upper, lower) = figure.grid(2, len(columns), 4.2, sharex=True, sharey="row")
     for place, (name, times) in enumerate(columns.items()):
         upper[place].set_title(name, loc="left")
         for series in among:

@@ -44,8 +44,7 @@ def draw(run: results.Run) -> plt.Figure:
     rules = sorted({one.rule for one in found}, key=savings.order)
     looks = {name: LOOKS[place % len(LOOKS)] for place, name in enumerate(dict.fromkeys(one.pipeline for one in found))}
     scenes = results.grouped(found, lambda one: one.first.scene)
-    drawing, grid = plt.subplots(len(scenes), 2, figsize=(style.PAGE_WIDTH, 1.1 + len(scenes) * (0.45 + ROW * len(rules))),
-                                 squeeze=False, width_ratios=(3, 2), layout="constrained", sharex="col", sharey=True)
+    drawing, grid = figure.grid(len(scenes), 2, 1.1 + len(scenes) * (0.45 + ROW * len(rules)), width_ratios=(3, 2), sharex="col", sharey=True)
     for panels, (scene, those) in zip(grid, scenes.items(), strict=True):
         draw_scene(list(panels), those, rules, looks)
         panels[0].axvline(1, color="#888888", linewidth=0.8, zorder=1)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 
-from ..draw import cell_map, figure, style
+from ..draw import cell_map, figure
 from ..read import results
 
 
@@ -91,7 +91,7 @@ def draw(run: results.Run) -> plt.Figure:
         entries[place] = max(entries.get(place, Entry(State.HOLDS)), entry_of(cell))
 
     drawn = {place: (COLOURS[entry.state], entry.text) for place, entry in entries.items()}
-    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 1.9 + cell_map.inches(drawn, rows)), layout="constrained")
+    drawing, [[axes]] = figure.grid(1, 1, 1.9 + cell_map.inches(drawn, rows))
     cell_map.draw(axes, drawn, rows, columns)
     plain = [column_of(cell) for cell in cells if cell["kind"] == "library"]
     if plain:

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
 
-from ..draw import figure, pipelines, style
+from ..draw import figure, pipelines
 from ..read import results
 from ..words import tables
 
@@ -61,8 +61,7 @@ def title(steps: list[Step]) -> str:
 def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> plt.Figure:
     scenes = steps_of(cells)
     rows = [len(steps) for steps in scenes.values()]
-    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, 1.2 + 0.5 * len(rows) + ROW * sum(rows)),
-                                 squeeze=False, layout="constrained", height_ratios=[count + 1.5 for count in rows])
+    drawing, grid = figure.grid(len(scenes), 1, 1.2 + 0.5 * len(rows) + ROW * sum(rows), height_ratios=[count + 1.5 for count in rows])
     for axes, steps in zip(grid[:, 0], scenes.values(), strict=True):
         for row, step in enumerate(steps):
             pairs = step.total("pairs_count") * 1e-6

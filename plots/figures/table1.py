@@ -42,9 +42,8 @@ class Bars:
         self.width = min(GROUP_WIDTH / len(self.series), BAR_WIDTH)
         self.copy_rate = run.copy_rate
         self.rows = results.printed("table1")["rows"]
-        self.figure, (self.time, self.throughput, self.rate) = plt.subplots(
-            3, 1, figsize=(style.PAGE_WIDTH, 6.2), sharex=True, layout="constrained",
-            gridspec_kw={"height_ratios": (5, 3, 2)})
+        self.figure, panels = figure.grid(3, 1, 6.2, sharex=True, height_ratios=(5, 3, 2))
+        self.time, self.throughput, self.rate = panels[:, 0]
 
     def draw(self, cell: results.Cell) -> None:
         series = style.series_of(cell)

@@ -74,7 +74,7 @@ def draw(run: results.Run) -> plt.Figure:
     if run.costs != results.USUAL_COSTS:
         printed |= {"rows": [], "other_editions": {}}
     scenes = list(results.grouped(cells, lambda cell: cell.scene).values())
-    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
+    drawing, [[axes]] = figure.grid(1, 1, 3.4)
     shown: set[str] = set()
     for x, scene in enumerate(scenes):
         shown |= draw_mesh(axes, x, scene, printed)
