@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Shared by all charts: a card with menus, a legend of buttons, and a Plotly drawing that is made when it comes into view.
-const seen = new IntersectionObserver(
-  (entries) => {
-    for (const entry of entries.filter((one) => one.isIntersecting)) {
-      seen.unobserve(entry.target);
-      entry.target.chart.draw();
-    }
-  },
-  {rootMargin: "300px"}
-);
+const seen = new IntersectionObserver(drawSeen, {rootMargin: "300px"});
+
+function drawSeen(entries) {
+  for (const {target} of entries.filter((one) => one.isIntersecting)) {
+    seen.unobserve(target);
+    target.chart.draw();
+  }
+}
 
 // Narrow windows break long names and dark pages have other colours, so charts are redrawn when this changes.
 const narrow = matchMedia("(max-width: 600px)");
@@ -29,8 +28,12 @@ async function drawPlot(plot, traces, layout, modeBar) {
 }
 
 class Chart {
-  /** `choices`: options by label, as for menu; `draw` returns {traces, layout, legend, notes} for the chosen options. */
-  constructor(title, choices, draw) {
+  /**
+   * `choices`: options by label, as for menu. `draw` returns for the chosen options {traces, layout, notes, cells, legend, asked}: the
+   * drawn cells, entries of the legend if they are not those of the cells, and all cells that were asked for if some are not drawn.
+   */
+  constructor(title, file, choices, draw) {
+    this.file = file;
     this.drawing = draw;
     this.selects = Object.values(choices).map((options) => menu(options, () => this.draw()));
     const shownChoices = Object.keys(choices).map((label, k) => {
@@ -51,10 +54,12 @@ class Chart {
 
   async draw() {
     await libraryOf("plotly");
-    const {traces, layout, legend, notes} = this.drawing(...this.selects.map((select) => select.value));
+    const {traces, layout, notes, cells, asked = [], ...more} = this.drawing(...this.selects.map((select) => select.value));
+    const star = cells.some((cell) => cell.is_stand_in) ? this.file.star + "." : "";
+    const said = [...notes, ...missingNotes(asked), star].filter(Boolean);
     this.hidden = new Set();
-    this.legend.replaceChildren(...legend.map((entry) => this.entry(entry)));
-    this.notes.replaceChildren(...notes.filter(Boolean).map((note) => element("p", {}, note)));
+    this.legend.replaceChildren(...(more.legend || legendOf(cells, this.file.looks)).map((entry) => this.entry(entry)));
+    this.notes.replaceChildren(...said.map((note) => element("p", {}, note)));
     this.plot.style.height = layout.height + "px";
     const isFirst = !this.plot.classList.contains("drawn");
     await drawPlot(this.plot, traces, layout, narrow.matches ? false : "hover");

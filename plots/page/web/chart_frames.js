@@ -19,7 +19,7 @@ function framesChart(file) {
     Show: [...stages.map((stage) => [stage, stageName(stage)]), ...counters.map((key) => [key, COUNTED[key]])],
     Scale: [["linear", "linear, from 0"], ["log", "logarithmic"]],
   };
-  return new Chart("Time a frame", choices, (scene, show, scale) => {
+  return new Chart("Time a frame", file, choices, (scene, show, scale) => {
     const here = scenes.get(scene);
     const isTime = !(show in COUNTED);
     const stage = isTime ? show : "whole";
@@ -45,13 +45,14 @@ function framesChart(file) {
     const title = isTime ? `${stageName(show)}, ${unit[0]}` : COUNTED[show];
     return {
       traces,
-      legend: legendOf(here, file.looks),
+      cells: here,
+      asked: here,
       layout: {
         height: 430,
         xaxis: axis("frame", null, {tickformat: "d", dtick: Math.max(1, Math.ceil(last / 12))}),
         yaxis: axis(title, isLog ? drawn : null, {tickformat: ",.4~r", rangemode: "tozero"}),
       },
-      notes: [isTime ? "Medians of each frame." : "", ...missingNotes(here), ...starNotes(file, here)],
+      notes: [isTime ? "Medians of each frame." : ""],
     };
   });
 }

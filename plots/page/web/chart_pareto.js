@@ -34,9 +34,9 @@ function paretoChart(file) {
   if (!measures.length) {
     return null;
   }
-  return new Chart("Time against quality or error", {Scene: names, Against: measures}, (scene, measure) => {
+  return new Chart("Time against quality or error", file, {Scene: names, Against: measures}, (scene, measure) => {
     if (!isUseful(scene, measure)) {
-      return {traces: [], legend: [], layout: {height: 120}, notes: [`On ${scene} none differs in ${measure}.`]};
+      return {traces: [], cells: [], layout: {height: 120}, notes: [`On ${scene} none differs in ${measure}.`]};
     }
     const here = shownOf(scene, measure);
     const times = here.map((cell) => cell.times.whole[1]);
@@ -68,17 +68,14 @@ function paretoChart(file) {
     });
     return {
       traces: [{...joined, ...placesOf(front)}, ...dots],
-      legend: legendOf(here, file.looks),
+      cells: here,
+      asked: scenes.get(scene),
       layout: {
         height: 430,
         xaxis: axis(`time, ${unit[0]}`, isWide(times) ? times : null, {tickformat: ",.4~r"}),
         yaxis: axis(measure, zero.log, {tickformat: ",.4~r", ...zero.more}),
       },
-      notes: [
-        "Down and left is better. Filled, joined: no other is as good in both. Medians.",
-        ...missingNotes(scenes.get(scene)),
-        ...starNotes(file, here),
-      ],
+      notes: ["Down and left is better. Filled, joined: no other is as good in both. Medians."],
     };
   });
 }

@@ -112,17 +112,20 @@ function sizeChart(file) {
     Scenes: places.length === 1 ? [["", places[0]]] : [["", "all"], ...(places.length <= MOST_SCENES ? places : [])],
     Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
   };
-  return new Chart("Time against size", choices, (experiment, stage, scene, key) => {
+  return new Chart("Time against size", file, choices, (experiment, stage, scene, key) => {
     const here = sizes.get(experiment).filter((cell) => !scene || placeOf(cell) === scene);
     const cells = here.filter((cell) => cell.times[stage] && cell.times[stage][0] > 0);
     const unit = unitFor(cells.map((cell) => cell.times[stage][1]));
     const quantity = QUANTITIES[key];
     const traces = sizeTraces(cells, familyOf, stage, quantity, unit, file.looks);
-    const points = cells.some((cell) => !familyOf(cell));
+    const hasPoints = cells.some((cell) => !familyOf(cell));
+    const shapes = hasPoints ? " Points without a line are scenes of one size, each another shape." : "";
     const ofFamily = (family, look) => ({name: family, look, isOf: (trace) => trace.meta === family});
     const families = [...familyLooks(cells, familyOf)].map(([family, look]) => ofFamily(family, look));
     return {
       traces,
+      cells: here,
+      asked: here,
       legend: [...legendOf(cells, file.looks), ...families],
       layout: {
         height: 430,
@@ -130,12 +133,7 @@ function sizeChart(file) {
         xaxis: axis("triangles", cells.map((cell) => cell.triangles), {tickformat: "~s"}),
         yaxis: axis(quantity.axis(unit), traces.flatMap((trace) => trace.y), {tickformat: ",.4~r"}),
       },
-      notes: [
-        "Medians; bars from the 10th to the 90th percentile." +
-          (points ? " Points without a line are scenes of one size, each another shape." : ""),
-        ...missingNotes(here),
-        ...starNotes(file, here),
-      ],
+      notes: ["Medians; bars from the 10th to the 90th percentile." + shapes],
     };
   });
 }

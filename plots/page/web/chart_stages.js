@@ -21,7 +21,7 @@ function stagesChart(file, stageLooks) {
   if (!useful.length) {
     return null;
   }
-  return new Chart("Time by stage", {Scene: useful.map(([name]) => name)}, (scene) => {
+  return new Chart("Time by stage", file, {Scene: useful.map(([name]) => name)}, (scene) => {
     const cells = scenes.get(scene);
     const bars = barsOf.get(scene);
     const timed = bars.filter((bar) => bar.stages);
@@ -62,6 +62,7 @@ function stagesChart(file, stageLooks) {
     const row = Math.max(ROW, 15 * (Math.max(...labels.map((lines) => lines.length)) + 1) + 6); // all as high as the highest
     return {
       traces,
+      cells,
       legend: there.map((stage) => ({name: stage, look: {...stageLooks[stage], symbol: "square"}})),
       layout: {
         height: Math.max(150, 80 + row * bars.length),
@@ -81,7 +82,6 @@ function stagesChart(file, stageLooks) {
       notes: [
         frames > 1 ? `Means over ${frames} frames of medians. Bold: the whole.` : "Medians. Bold: the whole.",
         longest > limit ? `The axis ends at ${LONGEST} times the shortest bar; a double click on the chart shows all.` : "",
-        ...starNotes(file, cells),
       ],
     };
   });

@@ -28,11 +28,6 @@ function missingNotes(cells) {
   return sentences.length > 4 ? [...told, `And ${sentences.length - 4} more, in the table of what has no time.`] : told;
 }
 
-/** Returns the explanation of the star, if one of the scenes has one. */
-function starNotes(file, cells) {
-  return cells.some((cell) => cell.is_stand_in) ? [file.star + "."] : [];
-}
-
 /** Returns a line or marks of cells in the given look. Each mark leads to the samples of a stage. */
 function scatter(name, plain, cells, stage, {marker, ...more}) {
   const look = themed(plain);
