@@ -106,7 +106,7 @@ class Malformed(InFolder):
         self.assertEqual((done.returncode, done.stderr), (3, f"bvhbench: the folder {self.folder} has no result file (.json or .json.xz) in it\n"))
 
     def test_a_page_of_nothing_is_wrong_usage(self) -> None:
-        done = self.run_script("__main__.py report")
+        done = self.run_script("__main__.py report", "--out", self.folder / "r.html")
         self.assertEqual((done.returncode, done.stderr), (2, "bvhbench: name result files, or a --scene to show\n"))
 
     def test_control_characters_of_a_name_do_not_reach_the_terminal(self) -> None:
