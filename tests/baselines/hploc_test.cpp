@@ -47,7 +47,8 @@ TEST(Hploc, EqualsTheReferenceForEveryCountTo150)
 
 TEST(Hploc, EqualsTheReferenceOnManyTriangles)
 {
-    ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(300007, 300007), {{}}));
+    const uint many = takes_all_cases() ? 300007 : 100003;
+    ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(many, many), {{}}));
 }
 
 TEST(Hploc, EqualsTheReferenceOnTheDeepestTreesOfTheirCodes)
@@ -88,19 +89,9 @@ TEST(Hploc, StaysWithinTheLevelsThatItDeclares)
     }
 }
 
-TEST(Hploc, GivesTheSameTreeAHundredTimes)
+TEST(Hploc, GivesTheSameTreeEveryTime)
 {
-    const Mesh mesh = soup(20000, 15000);
-    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
-    const auto builder = make_hploc(bench().programs, {});
-    builder->reserve(20000);
-    const Tree& tree = builder->build(input, bench().queue);
-    const std::uint64_t first = tree_hash(tree.to_host_tree());
-    for (int repeat = 0; repeat < 100; ++repeat) {
-        builder->build(input, bench().queue, Start::from_sorted_leaves);
-        ASSERT_EQ(tree_hash(tree.to_host_tree()), first);
-    }
-    bench().queue.finish();
+    expect_one_tree(*make_hploc(bench().programs, {}), soup(20000, 15000));
 }
 
 /// Four objects leave all bits of a code of 30 in a word, and no two codes of an object here are equal: so its tree is that of the

@@ -111,10 +111,15 @@ INSTANTIATE_TEST_SUITE_P(Catalog, RoundedTrees,
 
 TEST(RoundedTrees, AreBuiltByAllThatSayThatTheyCan)
 {
-    for (const BuilderEntry& entry : builder_catalog())
-        if (entry.takes_formats && entry.name != "oibvh-single")
-            for (const char* boxes : {"f64", "u16", "u8"})  // f16 compiles to the same code as u16
-                expect_contract(entry.name, boxes, 0);
+    // By day each builder takes one format, in turns. f16 compiles to the same code as u16.
+    const std::vector<std::string_view> formats = {"f64", "u16", "u8"};
+    for (std::size_t turn = 0; const BuilderEntry& entry : builder_catalog())
+        if (entry.takes_formats && entry.name != "oibvh-single") {
+            ++turn;
+            for (const std::string_view boxes : formats)
+                if (takes_all_cases() || boxes == formats[turn % formats.size()])
+                    expect_contract(entry.name, boxes, 0);
+        }
 }
 
 TEST(RoundedTrees, AreRefusedByAllOthersInOneSentence)

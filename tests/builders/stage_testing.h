@@ -15,12 +15,15 @@
 #include <string>
 #include <vector>
 
+#include "builders/builder.h"
+#include "builders/host_tree.h"
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
 #include "geometry/mesh.h"
+#include "tests/all_cases.h"
 
 namespace bvhbench {
 
@@ -80,6 +83,20 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
 {
     return a.size() == b.size() &&
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// Expects one tree from all builds over sorted leaves: 20 by day, 100 at night.
+inline void expect_one_tree(Builder& builder, const Mesh& mesh)
+{
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    builder.reserve(mesh.faces.size());
+    const Tree& tree = builder.build(input, bench().queue);
+    const std::uint64_t first = tree_hash(tree.to_host_tree());
+    for (int repeat = 0; repeat < (takes_all_cases() ? 100 : 20); ++repeat) {
+        builder.build(input, bench().queue, Start::from_sorted_leaves);
+        ASSERT_EQ(tree_hash(tree.to_host_tree()), first);
+    }
+    bench().queue.finish();
 }
 
 /// Both forms of kernels, for tests that run both on any device.

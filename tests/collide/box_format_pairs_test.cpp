@@ -72,16 +72,21 @@ std::vector<NamedMesh> telling_meshes()
 /// A box format, a collider over trees of that format, and a kernel form.
 using Case = std::tuple<BoxFormat, ColliderEntry, KernelForm>;
 
-/// All colliders in both kernel forms over u16. Other formats differ from u16 in types only, so they run those colliders that do
-/// more with boxes than compare them: lanes and areas.
+/// All colliders over u16, at night in both kernel forms. Other formats differ from u16 in types only, so they run those colliders
+/// that do more with boxes than compare them: lanes and areas.
 std::vector<Case> cases_of(const BoxFormat& format)
 {
     std::vector<Case> all;
-    for (const ColliderEntry& collider : box_colliders(true))
-        for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-            if (format.number == BOX_U16 || collider.name == "group" ||
-                (collider.name == "block" && form == KernelForm::groups))
+    for (int turn = 0; const ColliderEntry& collider : box_colliders(true)) {
+        ++turn;
+        for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+            const bool in_groups = form == KernelForm::groups;
+            const bool does_more =
+                collider.name == "group" || (collider.name == "block" && in_groups);
+            if (does_more || (format.number == BOX_U16 && takes_combination({turn, in_groups})))
                 all.emplace_back(format, collider, form);
+        }
+    }
     return all;
 }
 
@@ -147,7 +152,7 @@ std::vector<NamedMesh> far_soups()
 {
     std::vector<NamedMesh> meshes;
     for (const float shift : {1e5f, 1e6f})
-        for (uint triangles = 2; triangles <= 70; triangles += takes_all_cases() ? 1 : 4) {
+        for (uint triangles = 2; triangles <= 70; triangles += takes_all_cases() ? 1 : 17) {
             Mesh mesh = make_soup(triangles);
             for (Point& p : mesh.points)
                 p = {shift + 8 * p.x, shift + 8 * p.y, shift + 8 * p.z};

@@ -12,19 +12,13 @@ namespace {
 
 constexpr std::size_t few_sizes[] = {1, 2, 3, 5, 8, 33, 65}, simulated_sizes[] = {1, 5, 65};
 
-/// A collider, a builder whose trees it queries (if it needs any), and a kernel form.
-using Case = std::tuple<ColliderEntry, BuilderEntry, KernelForm>;
-
-std::vector<Case> cases()
+std::vector<ColliderCase> cases()
 {
-    std::vector<Case> all;
+    std::vector<ColliderCase> all = with_each_builder(box_colliders(true));
     for (const ColliderEntry& collider : box_colliders(false))
-        for (const BuilderEntry& builder : collider.needs_tree
-                                               ? builders_to_query()
-                                               : std::vector{BuilderEntry{"none", "", "", nullptr}})
-            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-                if (!collider.is_library)
-                    all.emplace_back(collider, builder, form);
+        for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+            if (!collider.needs_tree && !collider.is_library)
+                all.emplace_back(collider, BuilderEntry{"none", "", "", nullptr}, form);
     return all;
 }
 
@@ -36,7 +30,7 @@ std::vector<NamedMesh> meshes(std::size_t count)
     return all;
 }
 
-class ColliderContract : public testing::TestWithParam<Case> {
+class ColliderContract : public testing::TestWithParam<ColliderCase> {
 protected:
     const ColliderEntry& collider() const { return std::get<0>(GetParam()); }
     const BuilderEntry& builder() const { return std::get<1>(GetParam()); }
@@ -99,9 +93,6 @@ TEST_P(ColliderContract, DropsNothingWhenBuffersBeginWithOneEntry)
 
 TEST_P(ColliderContract, WalksSortedLeavesAndOtherOrders)
 {
-    const bool is_on_gpus = form() == KernelForm::groups;
-    if (!is_on_gpus && !is_thorough())
-        return;
     const auto one = made(options());
     const Mesh mesh = hard_inputs().front().make(1500);
     for (const char* order : {"morton30", "hilbert63"})

@@ -278,6 +278,25 @@ inline const std::vector<BuilderEntry>& builders_to_query()
     return some;
 }
 
+/// A collider, a builder whose trees it queries (if it needs any), and a kernel form.
+using ColliderCase = std::tuple<ColliderEntry, BuilderEntry, KernelForm>;
+
+/// Each collider with each builder, in one kernel form: the forms take turns. At night in both.
+inline std::vector<ColliderCase> with_each_builder(std::span<const ColliderEntry> colliders)
+{
+    std::vector<ColliderCase> all;
+    for (int place = 0; const ColliderEntry& collider : colliders) {
+        ++place;
+        for (int turn = place; const BuilderEntry& builder : builders_to_query()) {
+            ++turn;
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+                if (takes_combination({turn, form == KernelForm::chunks}))
+                    all.emplace_back(collider, builder, form);
+        }
+    }
+    return all;
+}
+
 /// True if the collider queries such trees; otherwise checks that `reserve` throws BadUsage.
 inline bool takes(Collider& collider, const Standing& standing)
 {

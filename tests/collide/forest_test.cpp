@@ -96,9 +96,12 @@ TEST_P(Objects, AreHeldAgainstEachOtherByEveryCollider)
             for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
                 for (const std::size_t capacity : {0u, 1u}) {
                     const bool is_usual = among == Among::between_objects && capacity == 0;
-                    if ((!is_usual && !is_to_query) ||
-                        !takes_combination({options().sorted_leaves, form == KernelForm::groups,
-                                            static_cast<int>(capacity)}))
+                    const int place = static_cast<int>(among),
+                              in_groups = form == KernelForm::groups;
+                    if (is_to_query
+                            ? !takes_combination({place, in_groups, options().sorted_leaves}) ||
+                                  !takes_combination({place != 0, in_groups, capacity == 1})
+                            : !is_usual || name != std::string_view("leaf"))
                         continue;
                     SCOPED_TRACE(std::string(name) + ' ' + name_of(form) + ' ' +
                                  std::to_string(static_cast<int>(among)) + " capacity " +

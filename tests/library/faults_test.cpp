@@ -4,7 +4,7 @@
 // work again once no call fails; and no OpenCL object may leak or be released twice. A shim that is linked before the
 // OpenCL loader intercepts every call.
 //
-// BVHBENCH_FAULTS=calls fails every call, alone and with all calls after it. The default tries every eightieth call path.
+// BVHBENCH_FAULTS=calls fails every call, alone and with all calls after it. The default tries every 160th call path.
 #include <optional>
 #include <set>
 
@@ -114,7 +114,7 @@ TEST_P(LibraryFaults, EndInAnErrorAndLeaveNothing)
     ASSERT_EQ(shim::leaked(), std::vector<std::string>());
     int errors = 0;
     std::set<std::uint64_t> tried;
-    for (const long nth : shim::chosen_calls(tried, whole.callers, 80))
+    for (const long nth : shim::chosen_calls(tried, whole.callers, 160))
         for (const bool from_there_on : {false, true}) {
             const Outcome outcome = live(GetParam(), device, {nth, from_there_on}, right);
             EXPECT_EQ(shim::leaked(), std::vector<std::string>()) << nth << shim::failed_call();

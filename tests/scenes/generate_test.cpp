@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -12,11 +13,25 @@
 namespace bvhbench {
 namespace {
 
+/// Makes a scene once for all tests: a moving one takes seconds.
+const Scene& made(const std::string& name)
+{
+    static std::map<std::string, Scene> known;
+    const auto [scene, is_new] = known.try_emplace(name);
+    if (is_new)
+        scene->second = load_scene(name, {});
+    return scene->second;
+}
+
+std::string name_with(const Generator& generator, std::size_t count, std::size_t frames)
+{
+    return std::string(generator.name) + ":" + std::to_string(count) +
+           (generator.moves ? ":" + std::to_string(frames) : "");
+}
+
 Scene generated(const Generator& generator, std::size_t count, std::size_t frames = 1)
 {
-    return load_scene(std::string(generator.name) + ":" + std::to_string(count) +
-                          (generator.moves ? ":" + std::to_string(frames) : ""),
-                      {});
+    return load_scene(name_with(generator, count, frames), {});
 }
 
 std::vector<Generator> all_that(bool may_stand)
@@ -51,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EachMovingGenerator, testing::ValuesIn(all_that
 TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
 {
     const uint least = GetParam().least;
-    std::vector<uint> more = {0, 1, 30, 501};
+    std::vector<uint> more = {0, 1, 30};
     if (!GetParam().moves) {
         more = {999, 1022, 1023, 1024, 65534, 144045, 412668};
         more.resize(more.size() + 300);
@@ -68,27 +83,27 @@ TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
 
 TEST_P(EachGenerator, MakesTheSameTwiceAndTheSameMotionForAnyNumberOfFrames)
 {
-    for (const std::size_t count : {1u, 7u, 1000u}) {
-        if (GetParam().moves && count != 1000)
-            continue;
-        const Scene first = generated(GetParam(), count, 4);
-        EXPECT_EQ(first.content_hash, generated(GetParam(), count, 4).content_hash);
-        EXPECT_NE(first.content_hash, generated(GetParam(), count + 1, 4).content_hash);
-        EXPECT_EQ(first.source, "generated");
-        if (!GetParam().moves)
-            continue;
-        ASSERT_EQ(first.frames.size(), 4u);
-        const Scene two = generated(GetParam(), count, 2);
-        for (std::size_t k = 0; k < two.frames[0].size(); ++k) {
-            EXPECT_EQ(two.frames[0][k].x, first.frames[1][k].x);
-            EXPECT_EQ(two.frames[1][k].y, first.frames[3][k].y);
+    if (!GetParam().moves)
+        for (const std::size_t count : {1u, 7u, 1000u})
+            EXPECT_EQ(generated(GetParam(), count).content_hash,
+                      generated(GetParam(), count).content_hash);
+    const Scene& first = made(name_with(GetParam(), 1000, 4));
+    EXPECT_EQ(first.source, "generated");
+    if (!GetParam().moves)
+        return;
+    ASSERT_EQ(first.frames.size(), 4u);
+    const Scene two = generated(GetParam(), 1000, 2);
+    for (std::size_t k = 0; k < two.frames[0].size(); ++k)
+        for (const std::size_t frame : {0, 1}) {
+            const Point &here = two.frames[frame][k], there = first.frames[2 * frame + 1][k];
+            EXPECT_TRUE(here.x == there.x && here.y == there.y && here.z == there.z) << k;
         }
-    }
 }
 
 TEST_P(EachGenerator, NamesItsObjectsAndRepeatsNoTriangleAndNoCorner)
 {
-    const Scene scene = generated(GetParam(), GetParam().moves ? 3000 : 5000);
+    const Scene& scene = made(name_with(GetParam(), 3000, 5));
+    EXPECT_EQ(scene.triangle_count(), 3000u);
     EXPECT_EQ(scene.has_meshes, GetParam().moves);
     std::set<std::string> names;
     for (const SceneObject& object : scene.objects)
@@ -105,7 +120,7 @@ TEST_P(EachGenerator, NamesItsObjectsAndRepeatsNoTriangleAndNoCorner)
 TEST_P(EachMovingGenerator, StaysOnItsStageWhateverItsSize)
 {
     for (const std::size_t count : {310u, 3000u}) {
-        const Scene scene = generated(GetParam(), count, 5);
+        const Scene& scene = made(name_with(GetParam(), count, 5));
         for (const std::vector<Point>& frame : scene.frames) {
             const Aabb box = box_of(frame);
             for (const float low : {box.min_x, box.min_y, box.min_z})
@@ -119,7 +134,7 @@ TEST_P(EachMovingGenerator, StaysOnItsStageWhateverItsSize)
 // No triangle side is much longer than at rest; cloth that explodes or hangs on one particle has longer sides.
 TEST_P(EachMovingGenerator, TearsNothing)
 {
-    const Scene scene = generated(GetParam(), 3000, 5);
+    const Scene& scene = made(name_with(GetParam(), 3000, 5));
     const auto longest = [&](const std::vector<Point>& points, const SceneObject& object) {
         double most = 0;
         for (uint k = 0; k < object.face_count; ++k) {
@@ -155,7 +170,7 @@ TEST(Generators, KeepTheirContent)
         {"n-body:1000:4", "9e039e4cebea8e32"},
     };
     for (const auto& [scene, hash] : hashes)
-        EXPECT_EQ(hex(load_scene(scene, {}).content_hash), hash) << scene;
+        EXPECT_EQ(hex(made(scene).content_hash), hash) << scene;
 }
 
 TEST(Generators, MakePartsOfTheWhole)
@@ -236,10 +251,10 @@ TEST(Hairball, StaysNearTheUnitBall)
 
 TEST(Moving, TakesANumberOfFramesAfterTheTriangles)
 {
-    EXPECT_EQ(load_scene("n-body:1000", {}).frames.size(), 16u);
-    EXPECT_EQ(load_scene("n-body:1000:1", {}).frames.size(), 1u);
-    EXPECT_EQ(load_scene("n-body:1000:1000", {}).frames.size(), 1000u);
-    EXPECT_EQ(load_scene("n-body:1000:7", {}).name, "n-body:1000:7");
+    EXPECT_EQ(load_scene("n-body:305", {}).frames.size(), 16u);
+    EXPECT_EQ(load_scene("n-body:305:1", {}).frames.size(), 1u);
+    EXPECT_EQ(load_scene("n-body:305:1000", {}).frames.size(), 1000u);
+    EXPECT_EQ(load_scene("n-body:305:7", {}).name, "n-body:305:7");
     for (const std::string bad :
          {"0", "", "-1", "+4", "1001", "4x", " 4", "4:4", "99999999999999999999"})
         EXPECT_TRUE(
@@ -274,10 +289,10 @@ TEST(NBody, MovesEveryBodyRigidlyAndBringsThemTogether)
 
 TEST(ClothBall, LiesOnABallThatTurnsAndOnTheFloor)
 {
-    const Scene scene = load_scene("cloth-ball:5000:8", {});
+    const Scene& scene = made("cloth-ball:3000:5");
     ASSERT_EQ(scene.objects[0].name, "cloth");
     const std::size_t ball_begin = scene.faces[scene.objects[1].first_face].a;
-    const auto motions = object_motions(scene, 6, 7);
+    const auto motions = object_motions(scene, 3, 4);
     EXPECT_EQ(motions[0], Motion::deforming);
     EXPECT_EQ(motions[1], Motion::rigid);
     float lowest = 1, highest = 0;
@@ -295,7 +310,7 @@ TEST(ClothBall, LiesOnABallThatTurnsAndOnTheFloor)
 
 TEST(ClothFunnel, PushesTheClothThroughTheNeck)
 {
-    const Scene scene = load_scene("cloth-funnel:3000:8", {});
+    const Scene& scene = made("cloth-funnel:3000:5");
     const auto below_the_neck = [&](std::size_t frame) {  // fraction of the cloth
         uint count = 0;
         for (uint k = 0; k < scene.objects[0].face_count; ++k)
@@ -303,8 +318,8 @@ TEST(ClothFunnel, PushesTheClothThroughTheNeck)
         return static_cast<double>(count) / scene.objects[0].face_count;
     };
     EXPECT_EQ(below_the_neck(0), 0);
-    EXPECT_GT(below_the_neck(7), 0.6);
-    const auto motions = object_motions(scene, 3, 4);
+    EXPECT_GT(below_the_neck(4), 0.6);
+    const auto motions = object_motions(scene, 2, 3);
     EXPECT_EQ(motions[1], Motion::unchanged);  // funnel
     EXPECT_EQ(motions[2], Motion::rigid);      // ball
     EXPECT_EQ(motions[3], Motion::unchanged);  // floor
