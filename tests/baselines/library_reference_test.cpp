@@ -2,11 +2,12 @@
 //
 // Libraries' colliders find as many pairs as a separate program counted, and are listed even if they were not built.
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "geometry/hash.h"
 #include "tests/baselines/library_colliders.h"
-#include "tests/collide/data_set.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {
@@ -27,21 +28,20 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
         const std::filesystem::path folder = std::filesystem::path(data) / "dynamic" / name;
         std::ifstream in(folder / "meta.json");
         const nlohmann::json meta = nlohmann::json::parse(in);
-        const DataSetMesh mesh = read_data_set_mesh(folder / "mesh.ply");
+        const Scene scene = load_scene(folder.string(), {});
         std::vector<FaceRange> objects;
-        for (const nlohmann::json& object : meta["objects"])
-            objects.push_back({object["face_first"], object["face_count"]});
-        const auto frames = read_frames(folder / "frames.f32", meta["frames"], mesh.points.size());
+        for (const SceneObject& object : scene.objects)
+            objects.push_back({object.first_face, object.face_count});
         const auto whole =
             make_collider({.name = GetParam(), .keep_adjacent = false}, session().programs());
         const auto between = make_collider(
             {.name = GetParam(), .among = Among::between_objects, .keep_adjacent = false},
             session().programs());
         const std::string kind = whole->finds_contacts() ? "exact_" : "aabb_";
-        for (std::size_t k = 0; k < frames.size(); ++k) {
+        for (std::size_t k = 0; k < scene.frames.size(); ++k) {
             SCOPED_TRACE(std::string(name) + ", frame " + std::to_string(k));
             const nlohmann::json& reference = meta["reference"][k];
-            const Input input = uploaded(frames[k], mesh.faces, objects);
+            const Input input = uploaded(scene.frames[k], scene.faces, objects);
             if (k == 0) {
                 whole->reserve(nullptr, input);
                 between->reserve(nullptr, input);

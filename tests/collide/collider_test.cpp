@@ -18,7 +18,8 @@ std::vector<ColliderCase> cases()
     for (const ColliderEntry& collider : box_colliders(false))
         for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
             if (!collider.needs_tree && !collider.is_library)
-                all.emplace_back(collider, BuilderEntry{"none", "", "", nullptr}, form);
+                all.emplace_back(collider, BuilderEntry{"none", "", "", nullptr}, form,
+                                 Leaves::as_in_mesh);
     return all;
 }
 
@@ -48,7 +49,10 @@ protected:
     {
         return bvhbench::made(collider().name, options);
     }
-    Standing standing(const Mesh& mesh) const { return {mesh, builder().make}; }
+    Standing standing(const Mesh& mesh) const
+    {
+        return {mesh, builder().make, {.sorted_leaves = std::get<3>(GetParam()) == Leaves::sorted}};
+    }
 };
 
 TEST_P(ColliderContract, FindsTheOraclesPairsOfFew)
@@ -91,15 +95,6 @@ TEST_P(ColliderContract, DropsNothingWhenBuffersBeginWithOneEntry)
     }
 }
 
-TEST_P(ColliderContract, WalksSortedLeavesAndOtherOrders)
-{
-    const auto one = made(options());
-    const Mesh mesh = hard_inputs().front().make(1500);
-    for (const char* order : {"morton30", "hilbert63"})
-        expect_oracles_pairs(
-            *one, Standing(mesh, builder().make, {.order = order, .sorted_leaves = true}));
-}
-
 TEST_P(ColliderContract, CountsTheSameEveryTime)
 {
     const auto one = made(options());
@@ -113,6 +108,19 @@ TEST_P(ColliderContract, CountsTheSameEveryTime)
         const QueryCounts again = one->counts(session().queue());
         EXPECT_EQ(again.box_tests, first.box_tests);
         EXPECT_EQ(again.bvtt_peak, first.bvtt_peak);
+    }
+}
+
+/// As large as the meshes whose pairs a separate program counted (reference_test).
+TEST(Colliders, FindTheOraclesPairsOfALargeSurface)
+{
+    for (const char* builder : {"oibvh-multi", "lbvh-levels"}) {
+        const Standing standing(scene_mesh("torus:86482"), builder);
+        for (const ColliderEntry& entry : box_colliders(false))
+            if (entry.name != "brute" && !entry.is_library) {
+                SCOPED_TRACE(std::string(entry.name) + " over " + builder);
+                expect_oracles_pairs(*made(entry.name, {.keep_adjacent = false}), standing, false);
+            }
     }
 }
 

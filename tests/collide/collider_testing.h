@@ -278,10 +278,15 @@ inline const std::vector<BuilderEntry>& builders_to_query()
     return some;
 }
 
-/// A collider, a builder whose trees it queries (if it needs any), and a kernel form.
-using ColliderCase = std::tuple<ColliderEntry, BuilderEntry, KernelForm>;
+/// Where a tree has the boxes of its leaves.
+enum class Leaves { as_in_mesh, sorted };
 
-/// Each collider with each builder, in one kernel form: the forms take turns. At night in both.
+inline std::string name_of(Leaves leaves) { return leaves == Leaves::sorted ? "sorted" : "mesh"; }
+
+/// A collider, a builder whose trees it queries (if it needs any), a kernel form, and where the leaves are.
+using ColliderCase = std::tuple<ColliderEntry, BuilderEntry, KernelForm, Leaves>;
+
+/// Each collider with each builder, in one kernel form and with one kind of leaves, which take turns. At night in both.
 inline std::vector<ColliderCase> with_each_builder(std::span<const ColliderEntry> colliders)
 {
     std::vector<ColliderCase> all;
@@ -290,8 +295,10 @@ inline std::vector<ColliderCase> with_each_builder(std::span<const ColliderEntry
         for (int turn = place; const BuilderEntry& builder : builders_to_query()) {
             ++turn;
             for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-                if (takes_combination({turn, form == KernelForm::chunks}))
-                    all.emplace_back(collider, builder, form);
+                for (const Leaves leaves : {Leaves::as_in_mesh, Leaves::sorted})
+                    if (takes_combination({turn, form == KernelForm::chunks}) &&
+                        takes_combination({turn / 2, leaves == Leaves::sorted}))
+                        all.emplace_back(collider, builder, form, leaves);
         }
     }
     return all;

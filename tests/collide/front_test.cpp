@@ -13,7 +13,7 @@ std::vector<ColliderCase> cases()
     const ColliderEntry fronts[] = {find_collider("front"), find_collider("front-leaf")};
     std::vector<ColliderCase> all = with_each_builder(fronts);
     std::erase_if(all, [](const ColliderCase& one) {
-        const auto& [front, builder, form] = one;
+        const auto& [front, builder, form, leaves] = one;
         const Standing standing(crowded_mesh(3), builder.make);
         return front.name == "front-leaf" && standing.device_tree().child_bits() > 1;
     });
@@ -25,6 +25,10 @@ protected:
     std::string_view front() const { return std::get<0>(GetParam()).name; }
     MakeBuilder make() const { return std::get<1>(GetParam()).make; }
     KernelForm form() const { return std::get<2>(GetParam()); }
+    BuildOptions build() const
+    {
+        return {.sorted_leaves = std::get<3>(GetParam()) == Leaves::sorted};
+    }
 };
 
 /// Runs small motions, and jumps that deform all triangles.
@@ -44,12 +48,13 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
     for (const bool keep_adjacent : {true, false})
         for (const std::size_t capacity : {0u, 1u}) {
             const bool is_large = capacity == 0, has_groups = form() == KernelForm::groups;
-            if (!takes_all_cases() && keep_adjacent != (is_large == has_groups))
+            if (!takes_all_cases() &&
+                (keep_adjacent != (is_large == has_groups) || is_large != build().sorted_leaves))
                 continue;
             SCOPED_TRACE(std::to_string(keep_adjacent) + std::to_string(capacity));
             Tracked tracked(moving, true, make(), front(),
                             {.keep_adjacent = keep_adjacent, .form = form(), .capacity = capacity},
-                            {.sorted_leaves = is_large});
+                            build());
             run_all(tracked, moving);
             EXPECT_GE(tracked.counted().at("restarts_count"), 1);
         }
@@ -60,9 +65,9 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)
     const Moving moving;
     for (const Among among : {Among::all, Among::between_objects, Among::within_objects}) {
         SCOPED_TRACE(static_cast<int>(among));
-        Tracked tracked(
-            moving, false, make(), front(),
-            {.among = among, .form = form(), .capacity = among == Among::all ? 1u : 0u});
+        Tracked tracked(moving, false, make(), front(),
+                        {.among = among, .form = form(), .capacity = among == Among::all ? 1u : 0u},
+                        build());
         run_all(tracked, moving);
     }
 }
@@ -71,7 +76,7 @@ TEST_P(FrontOver, NoticesObjectsThatComeBack)
 {
     const Moving moving;
     Tracked tracked(moving, false, make(), front(),
-                    {.among = Among::between_objects, .form = form()});
+                    {.among = Among::between_objects, .form = form()}, build());
     const auto move_to = [&](float x) {
         SCOPED_TRACE(x);
         tracked.expect_pairs_at(moving.moved(0, 0, x));
@@ -89,7 +94,7 @@ TEST_P(FrontOver, NoticesObjectsThatComeBack)
 TEST_P(FrontOver, IsKeptWhereNothingMoves)
 {
     const Moving moving;
-    Tracked tracked(moving, true, make(), front(), {.form = form()});
+    Tracked tracked(moving, true, make(), front(), {.form = form()}, build());
     tracked.expect_pairs_at(moving.moved(0.01f, 1));
     const auto first = tracked.counted();
     tracked.expect_the_same_again();
@@ -110,7 +115,7 @@ TEST_P(FrontOver, IsKeptWhereNothingMoves)
 TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
 {
     const Moving moving;
-    Tracked tracked(moving, false, make(), front(), {.form = form()});
+    Tracked tracked(moving, false, make(), front(), {.form = form()}, build());
     const int frames = takes_few_cases() ? 4 : 6, repeats = takes_few_cases() ? 1 : 3;
     for (int frame = 0; frame < frames; ++frame) {
         tracked.expect_pairs_at(moving.moved(0.03f, frame));
@@ -125,7 +130,7 @@ TEST_P(FrontOver, ClimbsBackWhenItHasGrown)
     // Over the same tree, a front just maintained depends on the points alone, not on the frames before.
     const Moving moving;
     for (const bool as_one : {true, false}) {
-        Tracked tracked(moving, as_one, make(), front(), {.form = form()});
+        Tracked tracked(moving, as_one, make(), front(), {.form = form()}, build());
         tracked.expect_pairs_at(moving.moved(0, 0));
         const double first = tracked.counted().at("front_count");
         tracked.expect_pairs_at(moving.moved(0.15f, 40));

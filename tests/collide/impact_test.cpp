@@ -67,104 +67,65 @@ struct ByHand {
     std::optional<double> time;  ///< when they first touch
 };
 
-constexpr Point a = {0, 0, 0}, b = {1, 0, 0}, c = {0, 1, 0};
-constexpr Point left = {-1, 0, 0}, right = {1, 0, 0};
 constexpr std::optional<double> never;
 
+/// A vertex on its way past a face at rest.
+ByHand vertex(const char* name, Point from, Point to, std::optional<double> time,
+              std::array<Point, 3> face = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}})
+{
+    const auto& [a, b, c] = face;
+    return {name, false, {from, a, b, c}, {to, a, b, c}, time};
+}
+
+/// An edge on its way past an edge at rest.
+ByHand edge(const char* name, std::array<Point, 2> from, std::array<Point, 2> to,
+            std::optional<double> time, std::array<Point, 2> other = {{{-1, 0, 0}, {1, 0, 0}}})
+{
+    const auto& [left, right] = other;
+    return {name, true, {left, right, from[0], from[1]}, {left, right, to[0], to[1]}, time};
+}
+
+constexpr std::array<Point, 3> without_area = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},
+                               of_one_point = {};
+
 const ByHand by_hand[] = {
-    {"head on", false, {{{.25f, .25f, 1}, a, b, c}}, {{{.25f, .25f, -1}, a, b, c}}, 0.5},
-    {"beside", false, {{{.75f, .75f, 1}, a, b, c}}, {{{.75f, .75f, -1}, a, b, c}}, never},
-    {"stops before", false, {{{.25f, .25f, 1}, a, b, c}}, {{{.25f, .25f, .125f}, a, b, c}}, never},
-    {"at the end only", false, {{{.25f, .25f, 1}, a, b, c}}, {{{.25f, .25f, 0}, a, b, c}}, 1.0},
-    {"at the start only", false, {{{.25f, .25f, 0}, a, b, c}}, {{{.25f, .25f, 1}, a, b, c}}, 0.0},
-    {"grazes a corner", false, {{{1, 0, 1}, a, b, c}}, {{{1, 0, -3}, a, b, c}}, 0.25},
-    {"grazes a side", false, {{{.5f, .5f, 1}, a, b, c}}, {{{.5f, .5f, -1}, a, b, c}}, 0.5},
-    {"slides in", false, {{{2, .25f, 0}, a, b, c}}, {{{0, .25f, 0}, a, b, c}}, 0.625},
-    {"slides past", false, {{{2, 2, 0}, a, b, c}}, {{{-1, 2, 0}, a, b, c}}, never},
-    {"hits a face without area",
-     false,
-     {{{1, 0, 1}, a, b, {2, 0, 0}}},
-     {{{1, 0, -1}, a, b, {2, 0, 0}}},
-     0.5},
-    {"passes a face without area",
-     false,
-     {{{1, .5f, 1}, a, b, {2, 0, 0}}},
-     {{{1, .5f, -1}, a, b, {2, 0, 0}}},
-     never},
-    {"hits a point", false, {{{0, 0, 1}, a, a, a}}, {{{0, 0, -1}, a, a, a}}, 0.5},
-    {"passes a point", false, {{{.5f, 0, 1}, a, a, a}}, {{{.5f, 0, -1}, a, a, a}}, never},
-    {"rests in it", false, {{{.25f, .25f, 0}, a, b, c}}, {{{.25f, .25f, 0}, a, b, c}}, 0.0},
-    {"rests above it",
-     false,
-     {{{.25f, .25f, .125f}, a, b, c}},
-     {{{.25f, .25f, .125f}, a, b, c}},
-     never},
+    vertex("head on", {.25f, .25f, 1}, {.25f, .25f, -1}, 0.5),
+    vertex("beside", {.75f, .75f, 1}, {.75f, .75f, -1}, never),
+    vertex("stops before", {.25f, .25f, 1}, {.25f, .25f, .125f}, never),
+    vertex("at the end only", {.25f, .25f, 1}, {.25f, .25f, 0}, 1.0),
+    vertex("at the start only", {.25f, .25f, 0}, {.25f, .25f, 1}, 0.0),
+    vertex("grazes a corner", {1, 0, 1}, {1, 0, -3}, 0.25),
+    vertex("grazes a side", {.5f, .5f, 1}, {.5f, .5f, -1}, 0.5),
+    vertex("slides in", {2, .25f, 0}, {0, .25f, 0}, 0.625),
+    vertex("slides past", {2, 2, 0}, {-1, 2, 0}, never),
+    vertex("hits a face without area", {1, 0, 1}, {1, 0, -1}, 0.5, without_area),
+    vertex("passes a face without area", {1, .5f, 1}, {1, .5f, -1}, never, without_area),
+    vertex("hits a point", {0, 0, 1}, {0, 0, -1}, 0.5, of_one_point),
+    vertex("passes a point", {.5f, 0, 1}, {.5f, 0, -1}, never, of_one_point),
+    vertex("rests in it", {.25f, .25f, 0}, {.25f, .25f, 0}, 0.0),
+    vertex("rests above it", {.25f, .25f, .125f}, {.25f, .25f, .125f}, never),
     {"moves along",
      false,
-     {{{.25f, .25f, .125f}, a, b, c}},
+     {{{.25f, .25f, .125f}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
      {{{.25f, .25f, 8.125f}, {0, 0, 8}, {1, 0, 8}, {0, 1, 8}}},
      never},
     {"is met",
      false,
-     {{{.25f, .25f, 1}, a, b, c}},
+     {{{.25f, .25f, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
      {{{.25f, .25f, 1}, {0, 0, 4}, {1, 0, 4}, {0, 1, 4}}},
      0.25},
-    {"edges cross",
-     true,
-     {{left, right, {0, -1, 1}, {0, 1, 1}}},
-     {{left, right, {0, -1, -1}, {0, 1, -1}}},
-     0.5},
-    {"edges end before",
-     true,
-     {{left, right, {2, -1, 1}, {2, 1, 1}}},
-     {{left, right, {2, -1, -1}, {2, 1, -1}}},
-     never},
-    {"edges end there",
-     true,
-     {{left, right, {1, -1, 1}, {1, 1, 1}}},
-     {{left, right, {1, -1, -1}, {1, 1, -1}}},
-     0.5},
-    {"parallel",
-     true,
-     {{left, right, {-1, 0, 1}, {1, 0, 1}}},
-     {{left, right, {-1, 0, -1}, {1, 0, -1}}},
-     0.5},
-    {"parallel, beside",
-     true,
-     {{left, right, {-1, .5f, 1}, {1, .5f, 1}}},
-     {{left, right, {-1, .5f, -1}, {1, .5f, -1}}},
-     never},
-    {"in one line",
-     true,
-     {{left, right, {2, 0, 0}, {3, 0, 0}}},
-     {{left, right, {0, 0, 0}, {1, 0, 0}}},
-     0.5},
-    {"in one line, apart",
-     true,
-     {{left, right, {2, 0, 0}, {3, 0, 0}}},
-     {{left, right, {1.5f, 0, 0}, {2.5f, 0, 0}}},
-     never},
-    {"in one plane",
-     true,
-     {{left, right, {0, 1, 0}, {0, 2, 0}}},
-     {{left, right, {0, -1, 0}, {0, 0, 0}}},
-     0.5},
-    {"at the end only, edges",
-     true,
-     {{left, right, {0, -1, 1}, {0, 1, 1}}},
-     {{left, right, {0, -1, 0}, {0, 1, 0}}},
-     1.0},
-    {"an edge without length",
-     true,
-     {{left, right, {0, 0, 1}, {0, 0, 1}}},
-     {{left, right, {0, 0, -1}, {0, 0, -1}}},
-     0.5},
-    {"two of them", true, {{a, a, {0, 0, 1}, {0, 0, 1}}}, {{a, a, {0, 0, -1}, {0, 0, -1}}}, 0.5},
-    {"turns into it",
-     true,
-     {{left, right, {0, 1, -1}, {0, 1, 1}}},
-     {{left, right, {0, 1, -1}, {0, -1, 1}}},
-     1.0},
+    edge("edges cross", {{{0, -1, 1}, {0, 1, 1}}}, {{{0, -1, -1}, {0, 1, -1}}}, 0.5),
+    edge("edges end before", {{{2, -1, 1}, {2, 1, 1}}}, {{{2, -1, -1}, {2, 1, -1}}}, never),
+    edge("edges end there", {{{1, -1, 1}, {1, 1, 1}}}, {{{1, -1, -1}, {1, 1, -1}}}, 0.5),
+    edge("parallel", {{{-1, 0, 1}, {1, 0, 1}}}, {{{-1, 0, -1}, {1, 0, -1}}}, 0.5),
+    edge("parallel, beside", {{{-1, .5f, 1}, {1, .5f, 1}}}, {{{-1, .5f, -1}, {1, .5f, -1}}}, never),
+    edge("in one line", {{{2, 0, 0}, {3, 0, 0}}}, {{{0, 0, 0}, {1, 0, 0}}}, 0.5),
+    edge("in one line, apart", {{{2, 0, 0}, {3, 0, 0}}}, {{{1.5f, 0, 0}, {2.5f, 0, 0}}}, never),
+    edge("in one plane", {{{0, 1, 0}, {0, 2, 0}}}, {{{0, -1, 0}, {0, 0, 0}}}, 0.5),
+    edge("at the end only, edges", {{{0, -1, 1}, {0, 1, 1}}}, {{{0, -1, 0}, {0, 1, 0}}}, 1.0),
+    edge("an edge without length", {{{0, 0, 1}, {0, 0, 1}}}, {{{0, 0, -1}, {0, 0, -1}}}, 0.5),
+    edge("two of them", {{{0, 0, 1}, {0, 0, 1}}}, {{{0, 0, -1}, {0, 0, -1}}}, 0.5, {}),
+    edge("turns into it", {{{0, 1, -1}, {0, 1, 1}}}, {{{0, 1, -1}, {0, -1, 1}}}, 1.0),
 };
 
 Point moved(Point p, float scale, float by)
@@ -491,8 +452,7 @@ TEST(ImpactPhase, IsForSweptBoxesAndOthersAreNot)
         EXPECT_FALSE(method.is_swept()) << method.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, Impacts, testing::Values(KernelForm::groups, KernelForm::chunks),
-                         [](const auto& instance) { return form_name(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Forms, Impacts, testing::ValuesIn(both_forms), form_test_name);
 
 }  // namespace
 }  // namespace bvhbench

@@ -108,8 +108,7 @@ TEST_P(Narrow, FindsTheSameEveryTime)
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, Narrow,
-                         testing::Combine(testing::Values(KernelForm::groups, KernelForm::chunks),
-                                          testing::Bool()),
+                         testing::Combine(testing::ValuesIn(both_forms), testing::Bool()),
                          [](const auto& tested) {
                              return form_name(std::get<0>(tested.param)) +
                                     (std::get<1>(tested.param) ? "_without_doubles" : "");

@@ -89,37 +89,6 @@ TEST_P(Near, OfFewAreThoseAndGetTheirNumbersBack)
     session().queue().finish();
 }
 
-/// Trees and colliders over the near triangles alone, in the same kernel form.
-TEST_P(Near, HaveThePairsBetweenObjects)
-{
-    const ManyObjects many = some_far();
-    const Input input = uploaded(many);
-    NearTriangles near(session().programs(), options());
-    near.reserve(input);
-    const std::vector<uint> counts = near.find(input, session().queue());
-    std::vector<Face> faces;
-    const Input frame = near.frame(input, counts, faces, session().queue());
-    ASSERT_EQ(frame.objects.size(), 2u);
-    const PairList expected = expected_pairs(many, Among::between_objects, true);
-    ASSERT_GT(expected.size(), 0u);
-    for (const char* name : {"oibvh-multi", "karras"}) {
-        const auto builder = find_builder(name).make(session().programs(), {});
-        builder->reserve_objects(object_sizes(frame));
-        const Tree* tree = nullptr;
-        session().build_once(*builder, frame, Start::from_triangles, &tree);
-        for (const char* collider_name : {"leaf", "bvtt", "group"}) {
-            SCOPED_TRACE(std::string(name) + ' ' + collider_name);
-            const auto collider =
-                made(collider_name, {.among = Among::between_objects, .form = options().form});
-            collider->reserve(tree, frame);
-            find_pairs(*collider, tree, frame, session().queue());
-            near.map_back(collider->device_pairs(session().queue()), session().queue());
-            session().queue().finish();
-            EXPECT_EQ(PairList(collider->pairs(session().queue())), expected);
-        }
-    }
-}
-
 INSTANTIATE_TEST_SUITE_P(Forms, Near, testing::Combine(both_forms, testing::Values(1u, 256u)),
                          [](const auto& tested) {
                              return name_of(std::get<0>(tested.param)) +

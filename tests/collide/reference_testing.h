@@ -6,11 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "geometry/hash.h"
-#include "tests/collide/data_set.h"
+#include "scenes/catalog.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 
@@ -29,6 +32,19 @@ inline nlohmann::json read_json(const std::filesystem::path& path)
     return nlohmann::json::parse(in);
 }
 
+/// A mesh as its file has it.
+struct DataSetMesh {
+    std::vector<Point> points;
+    std::vector<Face> faces;
+    std::vector<uint> objects;  ///< object of each face
+};
+
+inline DataSetMesh in_file(const Scene& scene, std::size_t frame = 0)
+{
+    const std::vector<std::int64_t> objects = objects_in_file(scene);
+    return {scene.frames.at(frame), faces_in_file(scene), {objects.begin(), objects.end()}};
+}
+
 /// Calls compare(mesh, reference) for every static mesh that is present and has at most `most_triangles` triangles.
 template <class Compare>
 void compare_static_meshes(std::size_t most_triangles, const Compare& compare)
@@ -42,7 +58,7 @@ void compare_static_meshes(std::size_t most_triangles, const Compare& compare)
             std::cout << "large or not there, not compared: " << name << '\n';
             continue;
         }
-        compare(read_data_set_mesh(path), reference);
+        compare(in_file(load_scene(path.string(), {})), reference);
         ++compared;
     }
     EXPECT_GT(compared, 0u);
@@ -56,13 +72,11 @@ void compare_frames(const Compare& compare)
     for (const auto& entry : std::filesystem::directory_iterator(data_sets() / "dynamic")) {
         SCOPED_TRACE(entry.path().filename().string());
         const nlohmann::json meta = read_json(entry.path() / "meta.json");
-        DataSetMesh mesh = read_data_set_mesh(entry.path() / "mesh.ply");
-        const auto frames =
-            read_frames(entry.path() / "frames.f32", meta["frames"], mesh.points.size());
+        const Scene scene = load_scene(entry.path().string(), {});
         for (const nlohmann::json& reference : meta["reference"]) {
             SCOPED_TRACE("frame " + reference["index"].dump());
-            mesh.points = frames.at(reference["index"]);
-            compare(mesh, reference, reference == meta["reference"].back());
+            compare(in_file(scene, reference["index"]), reference,
+                    reference == meta["reference"].back());
             ++compared;
         }
     }
