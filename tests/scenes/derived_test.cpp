@@ -235,13 +235,6 @@ TEST(Bend, LeavesAFlatSheetsEdgesInPlaceAndLiftsItsMiddle)
     EXPECT_NEAR(highest, 1.0 / 32, 1e-3);
 }
 
-TEST(Bend, IsTheSameEachTimeAndAnotherSceneThanTheOneItBends)
-{
-    EXPECT_EQ(load_scene("bend:soup:50", {}).content_hash,
-              load_scene("bend:soup:50", {}).content_hash);
-    EXPECT_NE(load_scene("bend:soup:50", {}).content_hash, load_scene("soup:50", {}).content_hash);
-}
-
 TEST(Bend, RefusesWhatMovesAlready)
 {
     EXPECT_EQ(refusal("bend:bend:soup:5"),

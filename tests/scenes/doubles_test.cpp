@@ -166,9 +166,7 @@ TEST(Doubles, OfFloatsAreLeftAlone)
     std::vector<WidePoint> points = soup_at(far_off);
     for (WidePoint& p : points)
         p = {rounded(p.x), rounded(p.y), rounded(p.z)};
-    std::string told;
-    SceneLibrary library;
-    library.tell = [&](const std::string& line) { told += line; };
+    Listening library;
     const Scene narrow = load_scene(folder.file("f.ply", ply_of<float>(points, "float")), library);
     const auto same = [&](const std::string& path) {
         const Scene scene = load_scene(path, library);
@@ -179,8 +177,8 @@ TEST(Doubles, OfFloatsAreLeftAlone)
     same(folder.file("a.obj", obj_of(points)));
     same(folder.file("a.off", off_of(points)));
     same(folder.file("a.stl", stl_of(points)));
-    EXPECT_EQ(told.find("doubles"), told.npos) << told;
-    EXPECT_TRUE(contains(told, "floats are 0.5 apart at its largest coordinate"));
+    EXPECT_EQ(library.told.find("doubles"), library.told.npos) << library.told;
+    EXPECT_TRUE(contains(library.told, "floats are 0.5 apart at its largest coordinate"));
 }
 
 TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
@@ -189,9 +187,7 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
     const std::vector<WidePoint> points = soup_at(far_off);
     const auto right = pairs_of(points);
     ASSERT_GT(right.size(), 50u);
-    std::string told;
-    SceneLibrary library;
-    library.tell = [&](const std::string& line) { told = line; };
+    Listening library;
     const Scene scene = load_scene(folder.file("d.ply", ply_of<double>(points, "double")), library);
     EXPECT_EQ(scene.rounding.how, Doubles::recentred);
     EXPECT_EQ(pairs_of(scene.frames[0]), right);
@@ -200,7 +196,7 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
     EXPECT_GT(scene.rounding.rounded_count, 2 * points.size());
     EXPECT_GT(scene.rounding.largest_error, 1e-9);
     EXPECT_LT(scene.rounding.largest_error, 5e-7);
-    EXPECT_TRUE(contains(told, "d.ply': doubles, recentred by (45001"));
+    EXPECT_TRUE(contains(library.told, "d.ply': doubles, recentred by (45001"));
     for (std::size_t k = 0; k < points.size(); ++k)
         EXPECT_LE(std::fabs(scene.rounding.offset.x + scene.frames[0][k].x - points[k].x),
                   scene.rounding.largest_error);
@@ -221,7 +217,7 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
     const auto found = pairs_of(as_is.frames[0]);
     EXPECT_GT(found.size(), right.size() + right.size() / 10);
     EXPECT_TRUE(std::includes(found.begin(), found.end(), right.begin(), right.end()));
-    EXPECT_TRUE(contains(told, "doubles, rounded to floats as they are: "));
+    EXPECT_TRUE(contains(library.told, "doubles, rounded to floats as they are: "));
 }
 
 TEST(Doubles, BeyondTheFloatsAreScaledByAPowerOfTwo)

@@ -180,33 +180,9 @@ TEST(Generators, MakePartsOfTheWhole)
         if (generator.run == nullptr)
             continue;
         ++made_in_parts;
-        for (const uint count : {1u, 2u, 7u, 191u, 192u, 193u, 1000u}) {
-            const std::string name = std::string(generator.name) + ":" + std::to_string(count);
-            const Scene whole = load_scene(name, {});
-            const std::vector<Point>& points = whole.frames.front();
-            for (const uint parts : {1u, 3u, 8u}) {
-                uint next = 0;
-                for (uint k = 0; k < parts; ++k) {
-                    const ScenePart part = *load_part(name, k, parts);
-                    EXPECT_EQ(part.triangles, count);
-                    EXPECT_EQ(part.mesh.mesh_points, points.size()) << name;
-                    EXPECT_EQ(part.run.first, next);
-                    EXPECT_EQ(part.mesh.faces.size(), part.run.count);
-                    ASSERT_EQ(part.mesh.points.size(), part.mesh.vertices.size());
-                    for (const Face& face : part.mesh.faces) {
-                        const Face& same = whole.faces[next++];
-                        EXPECT_TRUE(face.a == same.a && face.b == same.b && face.c == same.c);
-                        for (const uint vertex : {face.a, face.b, face.c})
-                            EXPECT_TRUE(std::ranges::binary_search(part.mesh.vertices, vertex));
-                    }
-                    for (std::size_t i = 0; i < part.mesh.points.size(); ++i) {
-                        const Point at = part.mesh.points[i], there = points[part.mesh.vertices[i]];
-                        EXPECT_TRUE(at.x == there.x && at.y == there.y && at.z == there.z);
-                    }
-                }
-                EXPECT_EQ(next, count);
-            }
-        }
+        for (const uint count : {1u, 2u, 7u, 191u, 192u, 193u, 1000u})
+            for (const uint parts : {1u, 3u, 8u})
+                hold_parts(name_with(generator, count, 1), parts);
     }
     EXPECT_EQ(made_in_parts, 6u);
     EXPECT_FALSE(load_part("sphere:100", 0, 2));

@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include "geometry/error.h"
 #include "scenes/catalog.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 
@@ -52,6 +56,46 @@ inline std::string refusal(std::string_view text, const SceneLibrary& library = 
         return std::string("Unavailable: ") + error.what();
     }
     return "loaded";
+}
+
+/// A library that keeps what loading tells.
+struct Listening : SceneLibrary {
+    std::string told;
+    Listening()
+    {
+        tell = [this](const std::string& line) { told += line; };
+    }
+    Listening(const Listening&) = delete;
+};
+
+/// Compares all parts of a scene with the whole: its triangles in the order of the file, with the vertices that they name, and with
+/// no others if `no_others`.
+inline void hold_parts(const std::string& name, uint parts, bool no_others = false)
+{
+    const Scene whole = load_scene(name, {});
+    const std::vector<Face> faces = faces_in_file(whole);
+    const std::vector<Point>& points = whole.frames.front();
+    uint next = 0;
+    for (uint k = 0; k < parts; ++k) {
+        const auto part = load_part(name, k, parts);
+        ASSERT_TRUE(part) << name;
+        const auto& mesh = part->mesh;
+        EXPECT_EQ(part->triangles, faces.size());
+        EXPECT_EQ(mesh.mesh_points, points.size()) << name;
+        EXPECT_EQ(part->run.first, next);
+        ASSERT_EQ(mesh.faces.size(), part->run.count);
+        ASSERT_EQ(mesh.points.size(), mesh.vertices.size());
+        std::set<uint> named;
+        for (const Face& face : mesh.faces) {
+            named.insert({face.a, face.b, face.c});
+            EXPECT_EQ(0, std::memcmp(&face, &faces[next++], sizeof face));
+        }
+        EXPECT_TRUE(std::ranges::includes(mesh.vertices, named)) << name;
+        EXPECT_TRUE(!no_others || mesh.vertices.size() == named.size());
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            EXPECT_EQ(0, std::memcmp(&mesh.points[i], &points[mesh.vertices[i]], sizeof(Point)));
+    }
+    EXPECT_EQ(next, faces.size());
 }
 
 inline testing::AssertionResult contains(const std::string& text, const std::string& part)

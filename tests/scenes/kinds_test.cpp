@@ -103,9 +103,7 @@ TEST_P(EveryKind, IsReadWhole)
         const Model model = random_model(chance);
         chance.is_plain = std::string_view(kind.name).starts_with("plain");
         const std::string path = folder.file(kind.name, kind.write(model, chance));
-        std::string told;
-        SceneLibrary library;
-        library.tell = [&](const std::string& line) { told += line; };
+        Listening library;
         const Scene scene = load_scene(path, library);
         const std::vector<Triangle> expected = triangles_of(model);
         ASSERT_EQ(triangles_of(scene), expected);
@@ -117,7 +115,7 @@ TEST_P(EveryKind, IsReadWhole)
             EXPECT_EQ(scene.facts->nonmanifold_edges, more);
         } else {
             EXPECT_EQ(scene.facts->shared_edges, 0u);
-            EXPECT_TRUE(contains(told, "--weld would join"));
+            EXPECT_TRUE(contains(library.told, "--weld would join"));
         }
         library.weld = true;
         EXPECT_EQ(load_scene(path, library).facts->shared_edges, edges_of(model)[1]);
@@ -159,15 +157,13 @@ TEST(Gltf, OfNodesFarAwayIsRecentredInDoubles)
 {
     const Folder folder;
     const auto gap = [&](const char* first, const char* second) {
-        std::string told;
-        SceneLibrary library;
-        library.tell = [&](const std::string& line) { told = line; };
+        Listening library;
         const Scene scene = load_scene(
             folder.file("far.gltf",
                         tetrahedra(std::string(R"({"mesh": 0, "translation": [)") + first +
                                    R"(]}, {"mesh": 0, "translation": [)" + second + "]}")),
             library);
-        EXPECT_TRUE(contains(told, "doubles, recentred by ("));
+        EXPECT_TRUE(contains(library.told, "doubles, recentred by ("));
         EXPECT_LT(scene.rounding.largest_error, 1e-7);
         return double{scene.frames[0][4].y} -
                scene.frames[0][2].y;  // from corner to origin, along y

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Parts of binary PLY files and of frames are those of the whole; what cannot be read in parts is read whole.
-#include "scenes/face_order.h"
-#include "tests/scenes/helpers.h"
-
-#include <algorithm>
-#include <cstring>
+#include "helpers.h"
+#include "kinds.h"
 
 namespace bvhbench {
 namespace {
-
-template <class T>
-void put(std::string& bytes, T value)
-{
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes.append(raw, sizeof value);
-}
 
 /// A strip of `triangles` triangles, with properties that are not read before, between and behind those that are.
 struct Strip {
@@ -35,54 +24,30 @@ struct Strip {
         all += "element vertex " + std::to_string(triangles + 2) + "\nproperty " + coordinate +
                " y\nproperty uchar red\nproperty " + coordinate + " x\nproperty " + coordinate +
                " z\nend_header\n";
-        put<std::int32_t>(all, 0);
+        append<std::int32_t>(all, 0);
         for (uint k = 0; k < triangles; ++k) {
-            put<unsigned char>(all, 1);
-            put<unsigned char>(all, k == 0 ? corners : 3);
+            append<unsigned char>(all, 1);
+            append<unsigned char>(all, k == 0 ? corners : 3);
             for (const uint corner : {k + 2, k, k == wrong_face ? triangles + 2 : k + 1})
-                put(all, triangles + 1 - corner);  // descending, so later faces have smaller ones
-            put<std::int32_t>(all, static_cast<std::int32_t>(k % 3));
+                append(all,
+                       triangles + 1 - corner);  // descending, so later faces have smaller ones
+            append<std::int32_t>(all, static_cast<std::int32_t>(k % 3));
         }
         for (uint k = 0; k < triangles + 2; ++k) {
             const float inverse = k == endless_point ? 0.0f : static_cast<float>(k) + 1.0f;
             const float at[] = {1.0f / inverse, -0.0f, static_cast<float>(k)};
             for (int axis = 0; axis < 3; ++axis) {
                 if (axis == 1)
-                    put<unsigned char>(all, 255);
+                    append<unsigned char>(all, 255);
                 if (coordinate == "float")
-                    put(all, at[axis]);
+                    append(all, at[axis]);
                 else
-                    put(all, static_cast<double>(at[axis]));
+                    append(all, static_cast<double>(at[axis]));
             }
         }
         return all;
     }
 };
-
-/// Compares all parts of a scene with the whole.
-void hold_parts(const std::string& name, uint parts)
-{
-    const Scene whole = load_scene(name, {});
-    const std::vector<Face> faces = faces_in_file(whole);
-    const std::vector<Point>& points = whole.frames.front();
-    uint next = 0;
-    for (uint k = 0; k < parts; ++k) {
-        const auto part = load_part(name, k, parts);
-        ASSERT_TRUE(part) << name;
-        EXPECT_EQ(part->triangles, faces.size());
-        EXPECT_EQ(part->mesh.mesh_points, points.size());
-        EXPECT_EQ(part->run.first, next);
-        ASSERT_EQ(part->mesh.faces.size(), part->run.count);
-        EXPECT_TRUE(std::ranges::is_sorted(part->mesh.vertices));
-        EXPECT_LE(part->mesh.vertices.size(), part->run.count + 2);
-        for (const Face& face : part->mesh.faces)
-            EXPECT_EQ(0, std::memcmp(&face, &faces[next++], sizeof face));
-        for (std::size_t i = 0; i < part->mesh.points.size(); ++i)
-            EXPECT_EQ(0, std::memcmp(&part->mesh.points[i], &points[part->mesh.vertices[i]],
-                                     sizeof(Point)));
-    }
-    EXPECT_EQ(next, faces.size());
-}
 
 TEST(Parts, OfABinaryPlyAreThoseOfTheWhole)
 {
@@ -90,7 +55,7 @@ TEST(Parts, OfABinaryPlyAreThoseOfTheWhole)
     for (const uint triangles : {1u, 2u, 100u}) {
         const std::string path = folder.file("strip.ply", Strip{triangles}.bytes());
         for (const uint parts : {1u, 3u, 7u})
-            hold_parts(path, parts);
+            hold_parts(path, parts, true);
     }
 }
 
@@ -103,9 +68,9 @@ TEST(Parts, OfFramesHaveThePointsOfTheFirst)
     folder.file("mesh.ply", strip.bytes());
     std::string frames;
     for (uint k = 0; k < 2 * 3 * points; ++k)
-        put(frames, static_cast<float>(k) / 3);
+        append(frames, static_cast<float>(k) / 3);
     folder.file("frames.f32", frames);
-    hold_parts(folder.path(), 4);
+    hold_parts(folder.path(), 4, true);
     folder.file("frames.f32", frames + "x");
     EXPECT_FALSE(load_part(folder.path().string(), 0, 2));
 }

@@ -45,48 +45,44 @@ TEST(Sequence, MustHoldWholeFrames)
     EXPECT_TRUE(contains(refusal(folder.path().string()), "frames.f32 has 0 bytes"));
 }
 
-/// Returns a sequence of two frames with the given meta.json.
-Scene with_meta(const Folder& folder, const std::string& meta)
+/// Writes a sequence of two frames with the given meta.json. Returns the folder.
+std::string with_meta(const Folder& folder, const std::string& meta)
 {
     folder.file("mesh.ply", mesh);
     folder.file("frames.f32", frame_bytes(2));
     folder.file("meta.json", meta);
-    return load_scene(folder.path().string(), {});
+    return folder.path().string();
 }
 
-std::string meta_refusal(const std::string& meta)
+/// Returns the mesh without an object_id.
+std::string plain_mesh()
 {
-    const Folder folder;
-    try {
-        with_meta(folder, meta);
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return "loaded";
+    std::string plain = mesh;
+    plain.replace(plain.find("property ushort object_id\n"), 26, "");
+    plain.replace(plain.find("3 0 1 2 0"), 9, "3 0 1 2");
+    plain.replace(plain.find("3 3 4 5 1"), 9, "3 3 4 5");
+    return plain;
 }
 
 TEST(Sequence, TakesNamesAndLabelsFromItsMeta)
 {
     const Folder folder;
-    const Scene scene = with_meta(folder, R"({"frames": 2, "vertices": 6, "triangles": 2,
+    const std::string path = with_meta(folder, R"({"frames": 2, "vertices": 6, "triangles": 2,
 "frame_labels": [5, "late"], "anything": {"else": [1, 2.5]},
 "objects": [{"name": "cloth", "face_first": 0, "face_count": 1, "vertex_first": 0},
             {"name": "ball", "face_first": 1, "face_count": 1}]})");
+    const Scene scene = load_scene(path, {});
     EXPECT_EQ(scene.objects[0].name, "cloth");
     EXPECT_EQ(scene.objects[1].name, "ball");
     EXPECT_EQ(scene.frame_labels, (std::vector<std::string>{"5", "late"}));
     EXPECT_TRUE(scene.has_meshes);
-    EXPECT_EQ(with_meta(folder, "{}").objects[1].name, "object 1");
+    EXPECT_EQ(load_scene(with_meta(folder, "{}"), {}).objects[1].name, "object 1");
 }
 
 TEST(Sequence, TakesObjectsFromItsMetaWhereTheMeshNamesNone)
 {
     const Folder folder;
-    std::string plain = mesh;
-    plain.replace(plain.find("property ushort object_id\n"), 26, "");
-    plain.replace(plain.find("3 0 1 2 0"), 9, "3 0 1 2");
-    plain.replace(plain.find("3 3 4 5 1"), 9, "3 3 4 5");
-    folder.file("mesh.ply", plain);
+    folder.file("mesh.ply", plain_mesh());
     folder.file("frames.f32", frame_bytes(2));
     EXPECT_EQ(load_scene(folder.path().string(), {}).objects.size(), 1u);
     EXPECT_FALSE(load_scene(folder.path().string(), {}).has_meshes);
@@ -125,18 +121,15 @@ TEST(Sequence, LeavesTheObjectOfEachTriangleToTheMeshWhereItsMetaNamesNoFirst)
     EXPECT_EQ(scene.file_faces, (std::vector<uint>{1, 0}));
     EXPECT_THROW(loaded("2"), Unavailable);
     EXPECT_THROW(loaded(R"(1, "id": 5)"), Unavailable);
-    std::string plain = mesh;
-    plain.replace(plain.find("property ushort object_id\n"), 26, "");
-    plain.replace(plain.find("3 0 1 2 0"), 9, "3 0 1 2");
-    plain.replace(plain.find("3 3 4 5 1"), 9, "3 3 4 5");
-    folder.file("mesh.ply", plain);
+    folder.file("mesh.ply", plain_mesh());
     EXPECT_TRUE(contains(refusal(folder.path().string()),
                          "without a face_first, and the mesh has no object_id"));
 }
 
 TEST(Sequence, RefusesAMetaThatDisagrees)
 {
-    EXPECT_EQ(meta_refusal("{}"), "loaded");
+    const Folder folder;
+    EXPECT_EQ(refusal(with_meta(folder, "{}")), "loaded");
     const std::pair<const char*, const char*> wrong[] = {
         {"{", "meta.json is not JSON"},
         {"[]", "meta.json is no JSON object"},
@@ -160,7 +153,7 @@ TEST(Sequence, RefusesAMetaThatDisagrees)
          "has an object, 'b', over 1 triangles from 0, and the mesh has 1 from 1"},
     };
     for (const auto& [meta, message] : wrong)
-        EXPECT_TRUE(contains(meta_refusal(meta), message)) << meta;
+        EXPECT_TRUE(contains(refusal(with_meta(folder, meta)), message)) << meta;
 }
 
 TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
@@ -215,12 +208,10 @@ TEST(Sequence, PassesOverFilesOfAnotherFormat)
     for (const char* other : {"meta_3.xml", "meta_4.xml", "meta_5.xml", ".scan_7.obj"})
         folder.file(other, "<xml/>");
     folder.file("scan_2.obj", text);
-    std::string told;
-    SceneLibrary library;
-    library.tell = [&](const std::string& line) { told = line; };
+    Listening library;
     EXPECT_EQ(load_scene(folder.path().string(), library).frames.size(), 2u);
-    EXPECT_TRUE(
-        contains(told, "its frames are the 2 files in .obj, and 3 in .xml are passed over"));
+    EXPECT_TRUE(contains(library.told,
+                         "its frames are the 2 files in .obj, and 3 in .xml are passed over"));
 }
 
 TEST(Sequence, IsNotAnyFolder)

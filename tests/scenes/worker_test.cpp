@@ -20,15 +20,14 @@ constexpr const char* dae =
 TEST(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
 {
     const Folder folder;
-    std::string told;
-    SceneLibrary library;
-    library.tell = [&](const std::string& line) { told = line; };
+    Listening library;
     const Scene scene = load_scene(folder.file("square.dae", dae), library);
     ASSERT_EQ(scene.triangle_count(), 4u);
     ASSERT_EQ(scene.frames[0].size(), 8u);  // shared within an instance, not between instances
     EXPECT_EQ(scene.reading.joined_vertices, 4u);
-    EXPECT_TRUE(contains(
-        told, "its corners come without common vertices, and 4 of equal position were joined"));
+    EXPECT_TRUE(
+        contains(library.told,
+                 "its corners come without common vertices, and 4 of equal position were joined"));
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].name, "moved");
     EXPECT_EQ(scene.objects[1].first_face, 2u);
