@@ -4,7 +4,6 @@
 // numbers of equal codes.
 #include "baselines/parameters.h"
 #include "baselines/radix/delta.h"
-#include "geometry/error.h"
 #include "tests/baselines/radix_testing.h"
 
 namespace bvhbench {
@@ -13,12 +12,7 @@ namespace {
 /// Returns programs of the same device, tuned as one with many lanes.
 Programs& programs_of_many_lanes()
 {
-    static Programs& programs = *[] {
-        Device& device = *new Device(bench().device);
-        device.tuning.set(radix_local, 1);
-        device.tuning.set(levels_at_once, 1);
-        return new Programs(device);
-    }();
+    static Programs& programs = programs_tuned({{&radix_local, 1}, {&levels_at_once, 1}});
     return programs;
 }
 
@@ -56,13 +50,6 @@ TEST(RadixBuilders, EqualTheReferenceInEveryWayOnSmallTrees)
 {
     for (const uint triangles : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 63u, 64u, 65u, 129u})
         ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(triangles, triangles), ways()));
-}
-
-TEST(RadixBuilders, EqualTheReferenceOnSmallTreesOfEqualCodes)
-{
-    for (const uint places : {1u, 3u})
-        for (const uint triangles : {2u, 3u, 5u, 64u, 100u})
-            ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(triangles, places), ways()));
 }
 
 TEST(RadixBuilders, EqualTheReferenceInEveryWayOnLargerTrees)
@@ -144,14 +131,6 @@ TEST(RadixBuilders, LaunchOnceForAllLevelsWhereGroupsWait)
         EXPECT_EQ(launches_of("hierarchy"), 1);
         EXPECT_EQ(tree_hash(builder->refit(input, bench().queue).to_host_tree()), built);
         EXPECT_EQ(launches_of("refit"), 1);
-    }
-}
-
-TEST(RadixBuilders, RefuseAGroupSizeThatIsNoPowerOfTwo)
-{
-    for (const MakeBuilder make : makers) {
-        EXPECT_THROW(make(bench().programs, {.group_size = 48}), BadUsage);
-        EXPECT_THROW(make(bench().programs, {.group_size = 1u << 20}), BadUsage);
     }
 }
 

@@ -69,15 +69,16 @@ TEST_P(EachBuilder, ChangesItsTreeByTheOrderAndNoOtherOption)
     const Mesh mesh = hard_inputs().front().make(777);
     BuilderChoice choice = named(GetParam().name);
     const auto& all = builder_catalog();
-    auto turn = static_cast<int>(std::ranges::find(all, GetParam().name, &BuilderEntry::name) -
-                                 all.begin());
+    const auto place = static_cast<int>(
+        std::ranges::find(all, GetParam().name, &BuilderEntry::name) - all.begin());
+    int turn = place;
     for (const OrderEntry& order : order_catalog()) {
         ++turn;
         for (const bool sorted_leaves : {false, true})
             for (const unsigned group_size : {0u, 64u}) {
                 const bool in_groups = group_size != 0;
-                if (!takes_combination({turn, in_groups}) ||
-                    !takes_combination({turn / 2, sorted_leaves}))
+                if (!takes_combination({turn, sorted_leaves}) ||
+                    !takes_combination({place / 2, sorted_leaves, in_groups}))
                     continue;
                 choice.order = order.name;
                 choice.sorted_leaves = sorted_leaves;
@@ -112,6 +113,14 @@ TEST_P(EachBuilder, AsksForBytesInProportionToTheMeshPast32Bits)
                 EXPECT_NEAR(bytes_each(log2) / at_4_million, 1.0, 0.02)
                     << order << (sorted_leaves ? ", sorted" : "") << ", 2^" << log2;
         }
+}
+
+TEST_P(EachBuilder, RefusesAGroupSizeThatIsNoPowerOfTwo)
+{
+    if (GetParam().make(session().programs(), {})->card().runs != BuilderCard::Runs::on_device)
+        return;
+    for (const BuildOptions& wrong : {BuildOptions{.group_size = 48}, {.group_size = 1u << 20}})
+        EXPECT_THROW(GetParam().make(session().programs(), wrong), BadUsage);
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, EachBuilder,

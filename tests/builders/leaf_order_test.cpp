@@ -6,7 +6,6 @@
 #include <map>
 
 #include "builders/stages/bounds.h"
-#include "geometry/error.h"
 #include "tests/all_cases.h"
 #include "tests/builders/stage_testing.h"
 
@@ -185,11 +184,6 @@ TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
                 EXPECT_EQ(from_device(order.ids()), ids);
             }
     }
-}
-
-TEST(LeafOrder, NamesTheOrdersThereAreWhenAskedForAnother)
-{
-    EXPECT_THROW(LeafOrder(bench().programs, "spiral"), BadUsage);
 }
 
 }  // namespace

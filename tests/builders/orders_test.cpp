@@ -3,14 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <iostream>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "builders/ordered/leaf_order.h"
 #include "geometry/error.h"
+#include "scenes/catalog.h"
 
 namespace bvhbench {
 namespace {
@@ -104,25 +103,6 @@ TEST(Orders, NamesThoseThereAreWhenAskedForAnother)
     }
 }
 
-/// Returns a torus of 2 * around * across triangles.
-Mesh torus(uint around, uint across)
-{
-    Mesh mesh;
-    const auto at = [&](uint u, uint v) { return u % around * across + v % across; };
-    for (uint u = 0; u < around; ++u)
-        for (uint v = 0; v < across; ++v) {
-            const double a = 2 * std::numbers::pi * u / around;
-            const double b = 2 * std::numbers::pi * v / across;
-            const double r = 1 + 0.3 * std::cos(b);
-            mesh.points.push_back({static_cast<float>(r * std::cos(a)),
-                                   static_cast<float>(r * std::sin(a)),
-                                   static_cast<float>(0.3 * std::sin(b))});
-            mesh.faces.push_back({at(u, v), at(u + 1, v), at(u, v + 1)});
-            mesh.faces.push_back({at(u + 1, v), at(u + 1, v + 1), at(u, v + 1)});
-        }
-    return mesh;
-}
-
 double area(Aabb box)
 {
     const double x = double{box.max_x} - box.min_x;
@@ -154,9 +134,9 @@ double sah(const std::vector<Aabb>& boxes, const std::vector<uint>& ids)
 /// Purpose of the orders: the same tree without pointers has a lower cost over leaves in a better order.
 TEST(OrderQuality, HilbertBeatsMortonAndMediansBeatBoth)
 {
-    const Mesh mesh = torus(300, 100);
+    const Scene scene = load_scene("torus:60000", {});
     const auto of_order = [&](const char* name) {
-        const HostLeafOrder order = host_leaf_order(face_boxes(mesh.points, mesh.faces), name);
+        const HostLeafOrder order = host_leaf_order(face_boxes(scene.frames[0], scene.faces), name);
         return sah(order.boxes, order.ids);
     };
     const double morton = of_order("morton30");

@@ -41,6 +41,16 @@ inline Bench& bench()
     return bench;
 }
 
+/// Returns programs of the same device with other parameters.
+inline Programs& programs_tuned(
+    std::initializer_list<std::pair<const Parameter*, unsigned>> parameters)
+{
+    Device& device = *new Device(bench().device);  // never destroyed, like bench()
+    for (const auto& [parameter, value] : parameters)
+        device.tuning.set(*parameter, value);
+    return *new Programs(device);
+}
+
 /// Reserves exactly what `take` takes of an arena: measures first, as builders do.
 template <class Take>
 void reserve(const Take& take)

@@ -174,13 +174,6 @@ TEST_F(Frames, OfFewTrianglesLeaveRanksEmpty)
                        std::to_string(count) + " neighbours");
 }
 
-TEST_F(Frames, OfTrianglesInOnePlaceHaveAllPairs)
-{
-    Mesh mesh{{{1, 1, 1}, {2, 1, 1}, {1, 3, 1}}, {}};
-    mesh.faces.assign(100, Face{0, 1, 2});
-    hold_to_oracle(mesh, "copies");
-}
-
 TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
 {
     Mesh mesh = scene("sphere:1000");

@@ -131,11 +131,7 @@ TEST_P(Halves, PairsWithTheHaloAreThoseOfTheDefinition)
 
 INSTANTIATE_TEST_SUITE_P(Trees, Halves,
                          testing::Values("oibvh-multi", "karras", "perfect", "oibvh-wide4"),
-                         [](const auto& instance) {
-                             std::string name = instance.param;
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+                         [](const auto& instance) { return test_name(instance.param); });
 
 }  // namespace
 }  // namespace bvhbench
