@@ -83,10 +83,11 @@ TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
 
 TEST_P(EachGenerator, MakesTheSameTwiceAndTheSameMotionForAnyNumberOfFrames)
 {
-    if (!GetParam().moves)
-        for (const std::size_t count : {1u, 7u, 1000u})
+    for (const std::size_t count : {1u, 7u, 1000u})
+        if (!GetParam().moves) {
             EXPECT_EQ(generated(GetParam(), count).content_hash,
                       generated(GetParam(), count).content_hash);
+        }
     const Scene& first = made(name_with(GetParam(), 1000, 4));
     EXPECT_EQ(first.source, "generated");
     if (!GetParam().moves)
