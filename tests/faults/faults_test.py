@@ -17,7 +17,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
-from program import (PATIENCE_S, SOURCE, at_work, copied_kernels, expect, experiment, limit_for, main, only,  # noqa: E402
+from program import (ALL_CASES, PATIENCE_S, SOURCE, at_work, copied_kernels, expect, experiment, limit_for, main, only,  # noqa: E402
                      planted_karras, run, valid, wait_until)
 
 SHIM = str(pathlib.Path(sys.argv[3]).resolve())
@@ -85,12 +85,12 @@ def test_a_clock_that_lies_is_not_believed():
     offers = "; --clock host takes the host's\n"
     for kind, says in (("zero", "began at 0"), ("back", "ended before it began"), ("huge", "took longer than on the host's"),
                        ("slow", "ns on the host's"), ("host", "the host's clock went back")):
-        for words in commands:
+        for words in commands if kind == "zero" or ALL_CASES else commands[:1]:
             done = run(*words, **bad_clock(kind))
             assert done.returncode == 3 and says in done.stderr and not done.stdout, (kind, done)
             assert done.stderr.endswith(offers) == (kind != "host") and done.stderr.count("\n") == 1, (kind, done)
         assert not pathlib.Path("r.json").exists() and not pathlib.Path("best.json").exists()
-    for kind in ("zero", "back", "huge", "slow", "some"):
+    for kind in ("zero", "back", "huge", "slow", "some") if ALL_CASES else ("slow", "some"):
         expect(0, "run", plan, "--out", "host.json", "--force", "--clock", "host", says="2 agree", **bad_clock(kind))
         result = valid("host.json")
         assert result["run"]["clock"] == "host"
@@ -181,27 +181,25 @@ def test_killed_at_any_time_it_leaves_its_cells_in_a_journal():
 def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
     endless = r"\1\n    while (*(volatile global const uint*)\2 != 0xdeadbeefu) {}\n"
     kernels = planted_karras("hangs", r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless)
-    plan = experiment("hangs.json", scenes=["soup:1", "soup:200", "soup:300"], builders=["perfect", "karras", "apetrei"],
+    scenes = ["soup:1", "soup:200", "soup:300"] if ALL_CASES else ["soup:1", "soup:300"]
+    plan = experiment("hangs.json", scenes=scenes, builders=["perfect", "karras", "apetrei"],
                       samples=2)
     # PoCL compiles kernels on their first use; a busy machine must not look like a hang.
     warm = ("run", plan, "--out", "warm.json", "--force", "--kernels", kernels, "--filter", "perfect|apetrei")
     expect(0, *warm)
     limit = limit_for(*warm)
     common = ("--time-limit", str(limit), "--kernels", kernels)
-    started = time.monotonic()
-    expect(0, "run", plan, "--out", "hangs-out.json", *common, says="9 cells, ")
+    expect(0, "run", plan, "--out", "hangs-out.json", *common, says=f"{3 * len(scenes)} cells, ")
     result = valid(pathlib.Path("hangs-out.json"))
     cells = [(cell["scene"]["name"], cell["builder"]["name"], cell["status"]) for cell in result["cells"]]
-    assert [cell[:2] for cell in cells] == [(scene, builder) for scene in ("soup:1", "soup:200", "soup:300")
+    assert [cell[:2] for cell in cells] == [(scene, builder) for scene in scenes
                                             for builder in ("perfect", "karras", "apetrei")], cells
     failed = [cell for cell in result["cells"] if cell["status"] == "failed"]
-    assert [cell["builder"]["name"] for cell in failed] == ["karras", "karras"], cells
+    assert [cell["builder"]["name"] for cell in failed] == ["karras"] * (len(scenes) - 1), cells
     assert all(cell["reason"].startswith(f"took longer than {limit} s and was ended") for cell in failed), failed
     orders = [sample["order"] for cell in result["cells"] for sample in cell.get("samples", [])]
-    assert len(set(orders)) == len(orders) == 14, orders
+    assert len(set(orders)) == len(orders) == 4 * len(scenes) + 2, orders
     assert "finished_at" in result["run"]
-    print(f"  two builds that hang cost {time.monotonic() - started:.1f} s at a limit of {limit} s each")
-    expect(4, "build", "--builder", "karras", "--scene", "soup:300", "--samples", "1", *common, says=f"took longer than {limit} s")
     expect(4, "collide", "--builder", "karras", "--collider", "leaf", "--scene", "soup:300", "--samples", "1", "--json",
            "hangs-collide.json", *common, says=f"took longer than {limit} s")
     assert only("hangs-collide.json")["status"] == "failed"
@@ -300,7 +298,7 @@ def test_names_with_blanks_and_quotes_are_names_and_nothing_else():
     expect(0, *BUILD, "--data", str(folder), says="agrees", BVHBENCH_DATA=str(folder))
     plan = experiment(str(folder / "p 'q'.json"), scenes=[str(mesh)], builders=["perfect", "$(touch owned)"])
     expect(2, "run", plan, "--out", str(out), says="no builder is called '$(touch owned)'")
-    expect(0, *BUILD, says="agrees", XDG_CACHE_HOME=str(folder.resolve()), POCL_CACHE_DIR="")
+    expect(0, "build", "--builder", "median-split", *BUILD[3:], says="agrees", XDG_CACHE_HOME=str(folder.resolve()), POCL_CACHE_DIR="")
     assert (folder / "bvhbench/pocl").is_dir()
     found = [path for path in pathlib.Path(".").rglob("owned")]
     assert not found, found

@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 
 try:
     import jsonschema
@@ -136,21 +137,27 @@ def ours() -> list[str]:
     return [line for line in found if line]
 
 
-def main(names: dict, begin: Callable[[], None] | None = None) -> int:
+def main(names: dict, begin: Callable[[], None] | None = None, at_a_time: int = 1) -> int:
     """Runs every test of a script, or those with TESTS in their names, in a temporary folder. With `begin`, each test has its own
-    folder, prepared by `begin`."""
+    folder, prepared by `begin`. Tests that wait much and use no file of each other run `at_a_time`."""
     wanted = os.environ.get("TESTS", "")
     tests = {name.removeprefix("test_"): value for name, value in names.items() if name.startswith("test_") and wanted in name}
-    with tempfile.TemporaryDirectory() as folder:
+
+    def passes(name: str, test: Callable[[], None]) -> None:
+        started = time.monotonic()
+        test()
+        print(f"passed: {name.replace('_', ' ')} ({time.monotonic() - started:.1f} s)", flush=True)
+
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(at_a_time) as several:
         os.chdir(folder)
-        for name, test in tests.items():
+        if at_a_time > 1:
+            list(several.map(passes, *zip(*tests.items())))
+        for name, test in tests.items() if at_a_time == 1 else ():
             if begin:
                 os.mkdir(f"{folder}/{name}")
                 os.chdir(f"{folder}/{name}")
                 begin()
-            started = time.monotonic()
-            test()
-            print(f"passed: {name.replace('_', ' ')} ({time.monotonic() - started:.1f} s)", flush=True)
+            passes(name, test)
         os.chdir("/")
     if not jsonschema:
         print("not checked against the schema: there is no jsonschema for this Python")

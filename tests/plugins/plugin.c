@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
  * A plug-in for tests: a tree that halves the triangles in their given order, and all pairs by comparing every two boxes. It is
- * right, unless PLUGIN_FAULT in the environment names a way in which it is to be wrong.
+ * right, unless its file is called fault-NAME.so, where NAME is a way in which it is to be wrong. Its methods are then called
+ * halves-NAME and every-two-NAME.
  */
 #include <bvhbench/plugin.h>
 
+#include <dlfcn.h>
 #include <float.h>
 #include <signal.h>
 #include <stdio.h>
@@ -26,10 +28,17 @@ typedef struct State {
     const char *error;
 } State;
 
-static int is(const char *fault)
+static char planted[32]; /* empty if it is right */
+
+static int is(const char *fault) { return strcmp(planted, fault) == 0; }
+
+static void find_fault(void)
 {
-    const char *asked = getenv("PLUGIN_FAULT");
-    return asked != NULL && strcmp(asked, fault) == 0;
+    Dl_info own;
+    const char *name = dladdr(planted, &own) ? strrchr(own.dli_fname, '/') : NULL;
+    if (name != NULL && sscanf(name, "/fault-%31[^.]", planted) == 1)
+        return;
+    planted[0] = '\0';
 }
 
 static uint64_t now_ns(void)
@@ -162,9 +171,11 @@ static int build(void *state, bvhbench_stages *stages)
         fprintf(stderr, "CUDA error 700\n");
         exit(7);
     }
-    if (is("hang"))
+    if (is("hang")) {
+        fclose(fopen("hangs", "w"));
         for (;;)
             pause();
+    }
     if (is("chatty"))
         for (int k = 0; k < 5000; ++k)
             printf("a library that prints what it does, line %d\n", k);
@@ -289,7 +300,13 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
          0, NULL, bytes, error, destroy}};
     static bvhbench_plugin plugin = {
         BVHBENCH_PLUGIN_ABI, "Halves", "1.0", "MIT", "host", 2, methods};
+    static char names[2][64];
     (void)host_abi;
+    find_fault();
+    for (int k = 0; k < 2 && planted[0] != '\0'; ++k) {
+        snprintf(names[k], sizeof names[k], "%s-%s", methods[k].name, planted);
+        methods[k].name = names[k];
+    }
     if (is("old-host"))
         return NULL;
     if (is("abi"))

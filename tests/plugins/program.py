@@ -1,22 +1,23 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A program for tests of --program: all pairs by comparing every two boxes. It is right, unless PLUGIN_FAULT in the environment
-names a way in which it is to be wrong."""
+"""A program for tests of --program: all pairs by comparing every two boxes. It is right, unless it is called as fault-NAME.py, where
+NAME is a way in which it is to be wrong. Its method is then called plain-NAME."""
 import json
 import os
+import pathlib
 import signal
 import sys
 import time
 from array import array
 
-FAULT = os.environ.get("PLUGIN_FAULT", "")
+FAULT = pathlib.Path(sys.argv[0]).stem.partition("-")[2]
 CONTROL = "\x1b[2Jname\x07\x9b31m\u202e\u2066<img src=x>"
-METHOD = {"name": "plain", "summary": "every two boxes, in Python", "query": True, "pairs": True}
+METHOD = {"name": f"plain-{FAULT}".removesuffix("-"), "summary": "every two boxes, in Python", "query": True, "pairs": True}
 
 
 class Plain:
     def create(self, request):
-        assert request["method"] == "plain"
+        assert request["method"] == METHOD["name"]
 
     def prepare(self, request):
         self.faces = values("I", request["faces"])
@@ -29,6 +30,7 @@ class Plain:
 
     def query(self, _request):
         if FAULT == "hang":
+            pathlib.Path("hangs").touch()
             time.sleep(600)
         if FAULT == "crash":
             os.kill(os.getpid(), signal.SIGSEGV)
