@@ -6,7 +6,7 @@ import os
 import pathlib
 import sys
 
-from program import PATIENCE_S, at_work, copied_kernels, expect, main, only
+from program import ALL_CASES, PATIENCE_S, at_work, copied_kernels, expect, main, only
 
 COLLIDE = ("collide", "--scene", "hairball:60000", "--adjacent", "drop", "--samples", "1")
 LEAF = (*COLLIDE, "--collider", "leaf", "--builder", "oibvh-multi")
@@ -66,8 +66,9 @@ def test_files_that_are_damaged_or_foreign_are_written_anew():
     right = found_by("damaged", *LEAF)["check"]
     (path, (text, _)), = answers("damaged").items()
     key = text.split()[2]
-    for wrong in ("", text[:40], text[:-1], text + " ", "x" * 100_000, text.replace(key, key[::-1]),
-                  sealed(text[:-17].replace(key, key[::-1])), text.replace("answer", "Answer")):
+    texts = ("", "x" * 100_000, sealed(text[:-17].replace(key, key[::-1])), text.replace("answer", "Answer"), text[:40], text[:-1],
+             text + " ", text.replace(key, key[::-1]))
+    for wrong in texts if ALL_CASES else texts[:4]:
         path.write_text(wrong)
         assert found_by("damaged", *LEAF)["check"] == right
         assert path.read_text() == text, wrong

@@ -9,6 +9,7 @@ import sys
 
 from program import KEPT, at_work, copied_kernels, ended, expect, main, run, valid, wait_until
 
+FEW = ("--builders", "karras", "--orders", "morton30", "--colliders", "leaf,group")
 NARROWED = ("--builders", "oibvh-multi,karras", "--orders", "morton30,hilbert30", "--colliders", "leaf,group")
 
 
@@ -42,8 +43,6 @@ def test_answers_with_a_table_a_sentence_a_command_and_files() -> None:
     shown = expect(0, "show", "best.json")
     assert shown.startswith(sentence + "\n"), (shown, sentence)
     expect(2, "best", "torus:2000", *NARROWED, says="best.json is a result of 16 cells; --force replaces it")
-    everything = best(0, "torus:2000", *NARROWED, "--force", "--all")
-    assert everything.count(" over ") >= 16 + everything.count("`") // 4 - 2, everything
 
 
 def test_is_for_builds_queries_and_memory_too() -> None:
@@ -52,20 +51,20 @@ def test_is_for_builds_queries_and_memory_too() -> None:
     again, = re.findall("again, alone: bvhbench (build .*)", said)
     expect(0, *shlex.split(again), "--samples", "1", says="verdict: agrees")
     assert {cell["operation"] for cell in valid("b.json")["cells"]} == {"build"}
-    said = best(0, "soup:500", *NARROWED, "--for", "query", "--out", "q.json")
-    assert " a query" in said, said
-    said = best(0, "soup:500", *NARROWED, "--for", "memory", "--boxes", "f32,u8", "--out", "m.json")
+    said = best(0, "soup:500", *NARROWED, "--for", "query", "--max-samples", "3", "--all", "--out", "q.json")
+    assert " a query" in said and said.count(" over ") >= 16 + said.count("`") // 4 - 2, said
+    said = best(0, "soup:500", *FEW, "--for", "memory", "--boxes", "f32,u8", "--out", "m.json")
     assert "u8 boxes" in said.splitlines()[2] and "counted" in said.splitlines()[2], said
     assert {cell["status"] for cell in valid("m.json")["cells"]} == {"measured"}
 
 
 def test_ranks_scenes_one_by_one_and_all_together() -> None:
-    said = best(0, "torus:1000", "soup:500", *NARROWED, "--frames", "0", "--out", "two.json")
+    said = best(0, "torus:1000", "soup:500", *FEW, "--max-samples", "5", "--frames", "0", "--out", "two.json")
     assert re.search(r"\ntorus:1000\npipeline", said) and re.search(r"\nsoup:500\npipeline", said), said
     assert "all scenes: the geometric mean" in said and "over 2 scenes" in said and said.count("again, alone: ") == 2, said
     # Frames of a moving scene, between its objects, and a pipeline that needs no tree.
     said = best(0, "two-spheres:600:6", "--frames", "3:6", "--pairs-of", "between", "--colliders", "leaf,grid", "--builders", "karras",
-                "--orders", "morton30", "--out", "f.json")
+                "--orders", "morton30", "--max-samples", "5", "--out", "f.json")
     numbers = {cell["scene"]["frame"] for cell in valid("f.json")["cells"] if cell["status"] == "measured"}
     assert numbers == {3, 4, 5} and "--pairs-of between --frames 3:6" in said, said
 
@@ -87,9 +86,6 @@ def test_refuses_before_it_measures() -> None:
             (3, ["none.obj"], "there is no file none.obj"),
             (2, ["soup:70", "--builders", "karas"], "karas"),
             (2, ["soup:70", "--colliders", "leaf,"], "no collider is called ''"),
-            (2, ["soup:70", "--orders", "spiral"], "spiral"),
-            (2, ["soup:70", "--boxes", "u7"], "u7"),
-            (2, ["soup:70", "--narrow", "rough"], "rough"),
             (2, ["soup:70", "--frames", "3:1"], "frames 3:1 are none"),
             (2, ["soup:70", "--for", "speed"], "speed"),
             (2, ["soup:70", "--for", "build", "--narrow", "exact"], "--narrow is for pairs"),
