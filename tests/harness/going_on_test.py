@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-from program import KEPT, PATIENCE_S, PROGRAM, SOURCE, at_work, children, ended, expect, experiment, main, ours, valid, wait_until
+from program import ALL_CASES, KEPT, PATIENCE_S, PROGRAM, SOURCE, at_work, children, ended, expect, experiment, main, ours, valid, wait_until
 
 LEAF = ("collide", "--collider", "leaf")
 
@@ -57,12 +57,13 @@ def test_what_a_scene_builder_or_collider_has_not_is_a_cell():
 def test_an_oracle_that_hangs_fails_the_cells_that_need_it():
     pipelines = [{"builder": "perfect", "collider": name, "narrow": narrow}
                  for name, narrow in (("leaf", "exact"), ("leaf", "none"), ("group", "exact"))]
-    plan = experiment("oracle.json", scenes=["soup:100", "soup:200"], pipelines=pipelines)
+    scenes = ["soup:100", "soup:200"] if ALL_CASES else ["soup:100"]
+    plan = experiment("oracle.json", scenes=scenes, pipelines=pipelines)
     expect(0, "run", plan, "--out", "compiled.json")
-    expect(0, "run", plan, "--out", "oracle-out.json", "--time-limit", "5", says="6 cells, 2 agree", BVHBENCH_STOP="contacts:0")
+    expect(0, "run", plan, "--out", "oracle-out.json", "--time-limit", "5", says=f"{3 * len(scenes)} cells, ", BVHBENCH_STOP="contacts:0")
     late = "the oracle of contacts took longer than 5 s and was ended; --time-limit gives it more"
     cells = cells_of("oracle-out.json")
-    assert [cell[1:] for cell in cells] == 2 * [("failed", late), ("measured", ""), ("failed", late)], cells
+    assert [cell[1:] for cell in cells] == len(scenes) * [("failed", late), ("measured", ""), ("failed", late)], cells
 
 
 def test_collide_and_accuracy_go_on_after_a_scene_that_is_not_there():
@@ -89,12 +90,13 @@ def test_what_measured_nothing_ends_with_4_and_says_why():
                         (f"{why}a collider's", (*LEAF, *refused, "collide-refused.json")),
                         (f"{why}no scene is called", ("accuracy", "--axis", "sums", "--scene", "nonsense", "--out", "none")),
                         (why, ("sweep", "--scenes", "gone.obj", "--builders", "perfect", "--out", "sweep")),
-                        ("nothing was checked: kernel", ("check", "--builder", "perfect", "--scene", "torus:300", *broken)),
-                        (f"{why}kernel source", ("reproduce", "table1", "--quick", "--out", "table", *broken))):
+                        ("nothing was checked: kernel", ("check", "--builder", "perfect", "--scene", "torus:300", *broken))):
         expect(4, *words, says=says)
     for path in ("build-refused.json", "collide-refused.json", "sweep/sweep.json"):
         assert [cell[1] for cell in cells_of(path)] == ["skipped"], path
-    assert {cell[1] for cell in cells_of("table/table1.json")} <= {"skipped", "failed"}
+    if ALL_CASES:
+        expect(4, "reproduce", "table1", "--quick", "--out", "table", *broken, says=f"{why}kernel source")
+        assert {cell[1] for cell in cells_of("table/table1.json")} <= {"skipped", "failed"}
 
 
 def test_what_cannot_even_begin_ends_with_2_or_3_and_writes_nothing():

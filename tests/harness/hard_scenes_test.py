@@ -8,11 +8,11 @@ import numpy
 from program import ALL_CASES, expect, main, valid
 
 CORNER = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
-BUILDERS = ["perfect", "karras", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single", "oibvh-multi", "oibvh-wide4"]
+BUILDERS = ["karras", "apetrei-fused", "hploc", "oibvh-multi", "oibvh-wide4"]
 COLLIDERS = ["leaf", "bvtt", "group", "block", "grid", "front-leaf", "embree", "fcl"]
 ORDERS = ["hilbert30"]
 if ALL_CASES:
-    BUILDERS += ["apetrei", "oibvh-single-printed", "oibvh-wide8", "oibvh-host", "median-split", "sah-binned"]
+    BUILDERS += ["perfect", "lbvh-levels", "oibvh-single", "apetrei", "oibvh-single-printed", "oibvh-wide8", "oibvh-host", "median-split", "sah-binned"]
     ORDERS += ["morton30", "hilbert63", "morton63", "kd"]
 
 
@@ -86,6 +86,8 @@ def test_every_pipeline_finds_the_pairs_of_every_two_boxes():
             assert cell["check"]["verdict"] == "agrees" and cell["counters"]["pairs_count"] == len(wanted), (name, cell)
         failed = {cell["collider"]["name"]: cell["reason"] for cell in cells if cell["status"] == "failed"}
         assert failed.keys() <= ({"embree"} if name == "huge" else set()), failed
+        if count is not None and not ALL_CASES:
+            continue
         expect(0, "collide", "--builder", BUILDERS[-1], "--collider", "leaf", *one, "--pairs", "p.csv")
         lines = pathlib.Path("p.csv").read_text().splitlines()[1:]
         listed = [tuple(sorted(map(int, line.split(",")[-2:]))) for line in lines]
