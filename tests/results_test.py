@@ -16,6 +16,7 @@ import unittest
 import jsonschema
 
 ROOT = pathlib.Path(sys.argv.pop(1))
+ALL_CASES = os.environ.get("BVHBENCH_TESTS") == "all"
 
 
 def read(path: pathlib.Path) -> dict:
@@ -53,6 +54,8 @@ class Schema(unittest.TestCase):
                 document = read(path)
                 if {"format", "run", "cells"} <= document.keys():
                     count += 1
+                    if not ALL_CASES:
+                        document["cells"] = document["cells"][::5]
                     for cell in document["cells"]:  # all samples of a cell have the same form: the first and last suffice
                         if len(cell.get("samples", [])) > 2:
                             del cell["samples"][1:-1]
