@@ -12,7 +12,8 @@ BUILDERS = ["karras", "apetrei-fused", "hploc", "oibvh-multi", "oibvh-wide4"]
 COLLIDERS = ["leaf", "bvtt", "group", "block", "grid", "front-leaf", "embree", "fcl"]
 ORDERS = ["hilbert30"]
 if ALL_CASES:
-    BUILDERS += ["perfect", "lbvh-levels", "oibvh-single", "apetrei", "oibvh-single-printed", "oibvh-wide8", "oibvh-host", "median-split", "sah-binned"]
+    BUILDERS += ["perfect", "lbvh-levels", "oibvh-single", "apetrei", "oibvh-single-printed", "oibvh-wide8", "oibvh-host", "median-split",
+                 "sah-binned"]
     ORDERS += ["morton30", "hilbert63", "morton63", "kd"]
 
 

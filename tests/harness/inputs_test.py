@@ -111,7 +111,7 @@ def test_json_that_is_none_and_a_folder_are_a_sentence_without_the_parsers_words
             one_sentence(path, *(word.replace("FILE", path) for word in words), codes=(2, 3))
 
 
-def test_every_reader_takes_a_result_packed_by_xz_and_a_damaged_one_is_a_sentence():
+def test_a_result_packed_by_xz_is_read_and_a_damaged_one_is_a_sentence():
     expect(0, "build", "--builder", "karras", "--scene", "soup:100", "--samples", "2", "--json", "r.json")
     packed = lzma.compress(pathlib.Path("r.json").read_bytes())
     pathlib.Path("r.json.xz").write_bytes(packed)

@@ -235,9 +235,11 @@ def test_what_cannot_be_is_one_sentence():
             ("where a triangle count from 1 to", one),
             ("frames 2:1 are none", f"{soup} --colliders leaf --set frames=2:1"),
             ("'1000:10:x10' are no sizes: 1000 is more than 10", f"{one} --sizes 1000:10:x10"),
+            ("a sweep needs builders or colliders", "--scenes soup:70"),
+            ("a sweep needs scenes", "--builders perfect"),
             ("--set is KEY=V1,V2, not 'boxes'", f"{soup} --set boxes"),
             ("'scene' is no key of a sweep; there are: sweep, question, scenes", '{"scene":["soup:70"]}'),
-            ("not JSON, at line 1, column 2", "{"), ("--out is required", ""),
+            ("must be an object", "[]"), ("not JSON, at line 1, column 2", "{"), ("--out is required", ""),
             ("whole/sweep.json has 8 of 8 parts that are none of this plan, or were measured with other options; choose another --out",
              f"{soup} --out whole"),
             ("taken/sweep.json is a result, and its cells do not say of which part of a plan they are", f"{soup} --out taken")):

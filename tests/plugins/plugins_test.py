@@ -207,14 +207,15 @@ def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
 
 
 def test_one_that_hangs_is_ended():
-    with_brute = ("collide", *QUICK, "--plugin", GOOD, "--program", PLAIN, "--collider")
-    limit = limit_for(*with_brute, "brute,halves,plain")
-    found = cells(*with_brute, "halves-hang,halves-stopped,plain-hang,brute,unknown", *wrong("--plugin", "hang", "stopped", "hangs-at-start"),
-                  *wrong("--program", "hang"), "--time-limit", str(limit))
-    late = f"it took longer than {0.95 * limit:g} s and was ended; --time-limit"
-    for name, call in (("halves-hang", "build"), ("halves-stopped", "build"), ("plain-hang", "query"), ("unknown", "hello")):
-        refused(found[name], f"in `{call}`: {late}")
-    agree(found, "brute")
+    for option, right, command, ours_too, faults in (
+            ("--plugin", GOOD, "build", "median-split", {"hang": "build", "stopped": "build", "hangs-at-start": "hello"}),
+            ("--program", PLAIN, "collide", "brute", {"hang": "query"})):
+        method, kind = {GOOD: ("halves", "--builder"), PLAIN: ("plain", "--collider")}[right]
+        limit = limit_for(command, option, right, kind, f"{method},{ours_too}", *QUICK)
+        for fault, call in faults.items():
+            found = cells(command, *wrong(option, fault), kind, f"{method}-{fault},{ours_too}", *QUICK, "--time-limit", str(limit))
+            refused(found[f"{method}-{fault}"], f"in `{call}`: it took longer than {0.95 * limit:g} s and was ended; --time-limit")
+            agree(found, ours_too)
 
 
 def test_what_one_says_cannot_command_a_terminal_or_a_page():
