@@ -6,6 +6,7 @@ from ..words.tables import Table, counted, duration
 from .comparison import ComparedCell, Comparison
 from .times import FASTER, FEWEST_SAMPLES, MOST_DRIFT, SAME, SLOWER, UNSURE, TimeChange
 
+UNKNOWN = 1000  # a ratio of which nothing smaller is known: two processes a side, or few samples, with many cells
 WORST_FIRST = (SLOWER, UNSURE, FASTER, SAME)
 # "finds": the smallest change that would be found in nine of ten comparisons; "n": samples, or processes x samples.
 COLUMNS = "<cell", "A", "B", "B/A", "between", "finds", "n", "<"
@@ -46,12 +47,13 @@ def is_notable(change: TimeChange, threshold: float) -> bool:
 
 def row_of(name: str, change: TimeChange) -> list[str]:
     return [name, duration(change.first), duration(change.second), f"{change.ratio.value:.3f}",
-            f"{change.ratio.low:.3f} – {change.ratio.high:.3f}", found(change.smallest), "/".join(dict.fromkeys(change.counts))]
+            f"{change.ratio.low:.3f} – {change.ratio.high:.3f}" if change.ratio.high < UNKNOWN else "unknown",
+            found(change.smallest), "/".join(dict.fromkeys(change.counts))]
 
 
 def found(smallest: float) -> str:
     """Returns the smallest change that would be found: "12 %", or "x 2.1" from 100 % on."""
-    if not math.isfinite(smallest):
+    if smallest > UNKNOWN:
         return "too few"
     return f"{100 * (smallest - 1):.0f} %" if smallest < 2 else f"x {smallest:.1f}"
 

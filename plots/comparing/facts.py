@@ -3,7 +3,7 @@ from typing import Any
 
 from ..console.cell import depths
 from ..read.cells import Cell
-from ..read.counters import is_better_smaller, is_exact, is_promised
+from ..read.counters import is_better_smaller, differs, is_promised
 from ..words.tables import exact
 from .refusals import Rules
 
@@ -59,7 +59,7 @@ def compare_counters(first: Cell, second: Cell, allow_missing: bool, found: Foun
         if other is None:
             why = second.left_out.get(counter)
             found[allow_missing].append(f"no {counter}{'' if why is None else f' ({why})'}, was {exact(value)}")
-        elif float(other) != float(value) and is_exact(counter, first):
+        elif differs(counter, float(value), float(other), first):
             is_better = is_better_smaller(counter) and other < value
             found[is_better or not is_promised(counter, first)].append(f"{counter} {exact(other)}, was {exact(value)}")
     before, after = first.leaves_by_depth, second.leaves_by_depth

@@ -19,6 +19,7 @@ FEWEST_SAMPLES = 9  # of each side, for a verdict
 # one is a change.
 MOST_DRIFT = 1.6
 OFTEN = 0.9  # the smallest change that is told is found this often
+LARGEST_EXPONENT = 700.0  # exp of a larger one is beyond a double
 NORMAL, OF_MEDIAN = 1.4826, 1.2533  # standard deviation over median distance; standard error of the median over the mean's
 
 Times = Sequence[numpy.ndarray]  # nanoseconds, an array for each process of a side
@@ -85,10 +86,11 @@ def time_change(first: Times, second: Times, threshold: float, error: float, spr
         deviation = max(spread.deviation, float(differences(first, second).std(ddof=1))) / math.sqrt(len(first))
         margin = student.quantile(error, spread.freedom) * deviation
     often = 0 if spread is None else student.quantile(2 * (1 - OFTEN), spread.freedom) * deviation
-    ratio = Interval(*(math.exp(max(-700.0, min(700.0, middle + of * margin))) for of in (-1, 0, 1)))
+    ratio = Interval(*(math.exp(max(-LARGEST_EXPONENT, min(LARGEST_EXPONENT, middle + of * margin))) for of in (-1, 0, 1)))
     counts = counts_of(first), counts_of(second)
     enough = min(sum(map(len, first)), sum(map(len, second))) >= FEWEST_SAMPLES
-    smallest = math.exp(max(margin, math.log1p(threshold)) + often) if enough else math.inf
+    exponent = max(margin, math.log1p(threshold)) + often
+    smallest = math.exp(exponent) if enough and exponent < LARGEST_EXPONENT else math.inf
     return TimeChange(median(numpy.concatenate(first)), median(numpy.concatenate(second)), ratio, smallest, counts,
                       verdict_of(ratio, threshold) if enough else UNSURE)
 

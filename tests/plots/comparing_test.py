@@ -295,6 +295,9 @@ class Facts(unittest.TestCase):
         of_group, of_leaf = (Cell({**cell(), "collider": {"name": name}}) for name in ("group", "leaf"))
         self.assertFalse(counters.is_exact("box_tests_count", of_group))
         self.assertTrue(counters.is_exact("pairs_count", of_group) and counters.is_exact("box_tests_count", of_leaf))
+        of_bvtt = Cell({**cell(), "collider": {"name": "bvtt"}})
+        self.assertEqual([counters.differs("query_bytes", 1000, now, of_bvtt) for now in (1002, 1011)], [False, True])
+        self.assertTrue(counters.differs("tree_bytes", 1000, 1001, of_bvtt))
 
 
 class Cells(unittest.TestCase):
@@ -387,6 +390,8 @@ class Statistics(unittest.TestCase):
         even = [numpy.full(9, 100.0)] * 4  # a cell whose own differences are all 0 has the spread of the others
         found = times.time_change(even, even, 0.05, 0.05, spread)
         self.assertAlmostEqual(numpy.log(found.ratio.high), student.quantile(0.05, 4) * spread.deviation / 2)
+        unknown = times.time_change(even[:2], even[:2], 0.05, 1e-7, times.Spread(2, 1))  # two processes and very many cells
+        self.assertEqual((unknown.verdict, unknown.smallest), (times.UNSURE, math.inf))
 
     def test_a_median_is_between_the_order_statistics_of_the_tables(self) -> None:
         for count, error, rank in ((9, 0.05, 2), (20, 0.05, 6), (30, 0.05, 10), (30, 0.01, 8), (100, 0.05, 40), (5, 0.05, 0), (0, 0.05, 0)):
