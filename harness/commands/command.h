@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -60,6 +61,9 @@ constexpr std::string_view knowing = "Know what there is";
 
 /// Returns every command, in the order of the help.
 std::span<const CommandEntry> commands();
+
+/// Returns the text of a file of plots/commands/, by its path from the source root; nothing if there is none.
+std::optional<std::string_view> python_command(std::string_view path);
 
 /// Sets the `--help` texts of the program and of each command from commands(), with wrapped lines.
 void add_help(CLI::App& app);

@@ -1,7 +1,25 @@
 // SPDX-License-Identifier: MIT
+#include <re2/re2.h>
+
+#include <string>
+
 #include "harness/commands/command.h"
 
 namespace bvhbench {
+namespace {
+
+/// Returns the entry of a command that is implemented in plots/commands/NAME.py, where its summary stands.
+CommandEntry in_python(const std::string& name, std::string_view group)
+{
+    const std::string pattern = "command\\.Parser\\(\\s*\"(" + name + ")\", \"([^\"]+)\",";
+    re2::StringPiece found, summary;
+    RE2::PartialMatch(*python_command("plots/commands/" + name + ".py"), pattern, &found, &summary);
+    return {.name = {found.data(), found.size()},
+            .group = group,
+            .summary = {summary.data(), summary.size()}};
+}
+
+}  // namespace
 
 extern const CommandEntry build_command, collide_command, cluster_command, run_command,
     accuracy_command, tune_command, list_command, check_command, stress_command, facts_command,
@@ -9,7 +27,7 @@ extern const CommandEntry build_command, collide_command, cluster_command, run_c
 
 std::span<const CommandEntry> commands()
 {
-    // To add a command, add its line here. One without an object is implemented in plots/commands/NAME.py.
+    // To add a command, add its line here.
     static const CommandEntry all[] = {
         list_command,
         scene_command,
@@ -17,31 +35,21 @@ std::span<const CommandEntry> commands()
         collide_command,
         cluster_command,
         run_command,
-        {"sweep", measuring,
-         "Measure a product of scenes, sizes, builders, orders, colliders and options, a "
-         "process a cell; go on where it was interrupted"},
-        {"scale", measuring,
-         "Run one scene on more and more devices: strong and weak scaling, and the share of the "
-         "halo"},
-        {"best", measuring,
-         "Say which builder and collider is the fastest for scenes of yours, and by how much"},
-        {"reproduce", measuring, "Measure, print and draw what the paper shows"},
+        in_python("sweep", measuring),
+        in_python("scale", measuring),
+        in_python("best", measuring),
+        in_python("reproduce", measuring),
         accuracy_command,
         tune_command,
-        {"show", looking, "Print a result file as tables"},
-        {"compare", looking,
-         "Compare result files with earlier ones, cell by cell; 1 if anything got worse"},
-        {"plot", looking, "Draw every figure that result files have the cells for"},
-        {"report", looking,
-         "Make one page of result files, and of small scenes in three dimensions"},
-        {"export", looking, "Write result files in a format that other programs read"},
-        {"merge", looking, "Make one result file of several, with each cell once and as it was"},
-        {"data", looking,
-         "List the data sets that scenes are made of, or download some into the data folder"},
+        in_python("show", looking),
+        in_python("compare", looking),
+        in_python("plot", looking),
+        in_python("report", looking),
+        in_python("export", looking),
+        in_python("merge", looking),
+        in_python("data", looking),
         check_command,
-        {"smoke", checking,
-         "Run every builder and collider over small scenes and compare all with a baseline; 1 "
-         "if it differs"},
+        in_python("smoke", checking),
         stress_command,
         facts_command,
         expand_command,

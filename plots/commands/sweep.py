@@ -22,8 +22,7 @@ Shard = tuple[int, int]  # the i-th of n
 
 def parser() -> command.Parser:
     words = command.Parser(
-        "sweep", "Measure a product of scenes, sizes, builders, orders, colliders and options, a process a cell; go on where it "
-        "was interrupted",
+        "sweep", "Measure a product of scenes, sizes, builders, orders, colliders and options; go on where it was interrupted",
         "Writes a plan into the folder and measures it by `bvhbench run --resume`: each cell, or scene, has a process of its own, so a "
         "crash costs one cell, and the same command again goes on where it was interrupted. The result is sweep.json in the folder.",
         [("bvhbench sweep --scenes torus --sizes 1000:1000000:x10 --builders oibvh-multi,karras --out out/sizes", "eight cells"),
