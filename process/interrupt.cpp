@@ -12,6 +12,7 @@
 #include <exception>
 #include <iostream>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -55,6 +56,8 @@ void remember(int signal)
         std::string clause = one->kept;
         try {
             one->work();
+        } catch (const std::bad_alloc&) {
+            clause = "out of host memory";
         } catch (const std::exception& error) {
             clause = error.what();
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <re2/re2.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "harness/commands/command.h"
@@ -13,7 +14,9 @@ CommandEntry in_python(const std::string& name, std::string_view group)
 {
     const std::string pattern = "command\\.Parser\\(\\s*\"(" + name + ")\", \"([^\"]+)\",";
     re2::StringPiece found, summary;
-    RE2::PartialMatch(*python_command("plots/commands/" + name + ".py"), pattern, &found, &summary);
+    const std::string file = "plots/commands/" + name + ".py";
+    if (!RE2::PartialMatch(python_command(file).value_or(""), pattern, &found, &summary))
+        throw std::logic_error(file + " has no parser with the command's name and summary");
     return {.name = {found.data(), found.size()},
             .group = group,
             .summary = {summary.data(), summary.size()}};

@@ -6,7 +6,7 @@ from ..words.tables import Table, counted, duration
 from .comparison import ComparedCell, Comparison
 from .times import FASTER, FEWEST_SAMPLES, MOST_DRIFT, SAME, SLOWER, UNSURE, TimeChange
 
-UNKNOWN = 1000  # a ratio of which nothing smaller is known: two processes a side, or few samples, with many cells
+UNKNOWN = 1000  # an interval that reaches beyond this ratio tells nothing; so it is with two processes a side and many cells
 WORST_FIRST = (SLOWER, UNSURE, FASTER, SAME)
 # "finds": the smallest change that would be found in nine of ten comparisons; "n": samples, or processes x samples.
 COLUMNS = "<cell", "A", "B", "B/A", "between", "finds", "n", "<"

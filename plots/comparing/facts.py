@@ -3,7 +3,7 @@ from typing import Any
 
 from ..console.cell import depths
 from ..read.cells import Cell
-from ..read.counters import is_better_smaller, differs, is_promised
+from ..read.counters import differs, is_better_smaller, is_promised
 from ..words.tables import exact
 from .refusals import Rules
 

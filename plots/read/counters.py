@@ -7,7 +7,7 @@ MOST_VARIATION = 0.01
 UNSTEADY = {
     ("box_tests_count", "group"): "it takes nodes in the order in which they turn up, which work-items race for",
     **{(counter, collider): "its queues grow by what was found until they were full, which work-items race for"
-       for counter in ("memory_bytes", "query_bytes") for collider in ("bvtt", "front", "front-leaf")}}
+       for counter in ("memory_bytes", "query_bytes") for collider in ("bvtt", "front")}}
 FOUND = ("pairs_count", "contacts_count")  # all that a library guarantees
 LIBRARIES = ("embree", "fcl")  # which builders and colliders wrap; beginnings of their names
 UNITS_OF_TIME = ("_ns", "_us", "_ms", "_s", "_per_s")

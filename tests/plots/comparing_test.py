@@ -392,6 +392,7 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(numpy.log(found.ratio.high), student.quantile(0.05, 4) * spread.deviation / 2)
         unknown = times.time_change(even[:2], even[:2], 0.05, 1e-7, times.Spread(2, 1))  # two processes and very many cells
         self.assertEqual((unknown.verdict, unknown.smallest), (times.UNSURE, math.inf))
+        self.assertEqual(comparison_text.row_of("", unknown)[4:6], ["unknown", "too few"])
 
     def test_a_median_is_between_the_order_statistics_of_the_tables(self) -> None:
         for count, error, rank in ((9, 0.05, 2), (20, 0.05, 6), (30, 0.05, 10), (30, 0.01, 8), (100, 0.05, 40), (5, 0.05, 0), (0, 0.05, 0)):

@@ -140,10 +140,11 @@ def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
     said = expect(0, "best", "torus:200", *slip, "--builders", "oibvh-multi", "--orders", "hilbert30", "--colliders",
                   "plain-microseconds,group", "--out", "raced.json")
     assert "\ntake `group` over `oibvh-multi`" in said and re.search(warning, said), said
-    # The race too goes by the wall clock: the slip does not drive all others out.
-    raced = {cell["collider"]["name"]: cell for cell in valid("raced.json")["cells"] if "samples" in cell}
-    assert "outside" in raced["plain-microseconds"] and raced["plain-microseconds"]["sampling"]["stopped"] == "beaten", raced
-    assert raced["group"]["sampling"]["stopped"] != "beaten", raced
+    # The race too goes by the wall clock: the slip does not drive all others out. Of `group` over the two kinds of leaves one may.
+    raced = [cell for cell in valid("raced.json")["cells"] if "samples" in cell]
+    slips = [cell for cell in raced if cell["collider"]["name"] == "plain-microseconds"]
+    assert len(slips) == 1 and "outside" in slips[0] and slips[0]["sampling"]["stopped"] == "beaten", slips
+    assert len(raced) == 3 and any(cell["sampling"]["stopped"] != "beaten" for cell in raced if cell not in slips), raced
     said = expect(0, "build", *wrong("--plugin", "microseconds"), "--builder", "halves-microseconds,median-split", "--scene", "torus:20000",
                   "--samples", "3")
     assert " a build by the wall clock" in said and "\nwarning: torus:20000: halves-microseconds: its stages take " in said, said
