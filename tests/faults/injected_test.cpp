@@ -178,7 +178,7 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
 
 /// Limits memory, so that a call that asks for more than there is fails as well; not under the address sanitizer, which takes memory
 /// of its own.
-std::vector<std::string> limit(const char* room)
+std::vector<std::string> limit([[maybe_unused]] const char* room)
 {
 #ifdef __SANITIZE_ADDRESS__
     return {};
