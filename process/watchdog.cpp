@@ -110,8 +110,7 @@ struct Ending {
     std::string reason() const
     {
         if (late) {
-            ProcessEnd end;
-            end.how = ProcessEnd::How::timed_out;
+            const ProcessEnd end = {.how = ProcessEnd::How::timed_out};
             return spelled(end, limit_ms / 1000) + " and was ended; --time-limit gives it more";
         }
         if (ended_by() == SIGKILL)

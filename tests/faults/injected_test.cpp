@@ -201,7 +201,8 @@ TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
                                             "1",       "--json",    file_.string()};
     ASSERT_EQ(run(build, {}).code, 0);  // compiles the kernels; later runs lack the room for it
     fail_calls_of(build + limit(room_to_build), 1);
-    fail_calls_of(build, 1);  // skips the call paths tried above
+    if (!limit(room_to_build).empty())
+        fail_calls_of(build, 1);  // skips the call paths tried above
 }
 
 TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)

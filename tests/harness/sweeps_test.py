@@ -141,7 +141,8 @@ def test_a_crash_costs_one_cell():
 def test_a_device_that_goes_away_ends_it_with_what_is_done():
     vendors = pathlib.Path("vendors").resolve()
     vendors.mkdir()
-    for path in pathlib.Path(os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors")).glob("*.icd"):
+    given = pathlib.Path(os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors"))
+    for path in given.glob("*.icd") if given.is_dir() else [given]:
         shutil.copy(path, vendors)
     words = ("sweep", "--scenes", "soup:70,torus:500,soup:71", "--builders", "perfect,karras,apetrei,median-split", "--samples", "1", "--out",
              "gone")

@@ -34,7 +34,11 @@ namespace {
     std::_Exit(0);
 }
 
-void fault() { std::raise(SIGSEGV); }
+void fault()
+{
+    std::signal(SIGSEGV, SIG_DFL);  // a library may have a handler that returns
+    std::raise(SIGSEGV);
+}
 
 void limit_address_space()
 {
