@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/frame_verdict.h"
+
+#include <optional>
+#include <utility>
+
+#include "builders/box_format.h"
+#include "collide/narrow/narrow_methods.h"
+#include "collide/oracles/exact_reference.h"
+#include "geometry/hash.h"
+#include "geometry/host_memory.h"
+#include "harness/judge/pair_counts.h"
+#include "harness/measure/device_verdict.h"
+
+namespace bvhbench {
+
+/// The pairs or contacts that a pipeline found. They are kept only if their hash differs from that of the oracle's list.
+class FrameVerdict::FoundList {
+public:
+    FoundList(std::vector<Pair> found, const Expected& expected, const FrameOfPipelines& frame)
+        : expected_(expected), frame_(frame)
+    {
+        const PairFacts facts = facts_of(found);
+        // Facts from an earlier run may be wrong, so a difference counts only if the list has it too.
+        if (facts != expected.facts().set && facts != expected.list().facts.set) {
+            doubled_ = doubled_pairs(found);
+            own_.emplace(std::move(found));
+        }
+    }
+
+    bool is_right() const { return !own_; }
+    const PairList& list() const { return own_ ? *own_ : expected_.list().list; }
+
+    /// Adds differences from the oracle's list to the check.
+    void add_differences(const std::string& what, Check& check) const
+    {
+        if (!own_)
+            return;
+        const AnswerFacts& expected = expected_.list().facts;
+        check.find_wrong(
+            "the oracle has " + std::to_string(expected.set.count) + ' ' + what + " of the hash " +
+            hex(expected.file_hash) +
+            examples(*own_, expected_.list().list, doubled_, frame_.input, frame_.file_faces) +
+            "; `collide --" + what + " FILE` writes all that were found");
+    }
+
+    /// Writes the hash of the list with triangles numbered as in the scene's file. Returns that list if it is wanted, else none.
+    PairList in_file(std::optional<std::uint64_t>& hash) const
+    {
+        if (!own_ && !frame_.wants_lists) {
+            hash = expected_.facts().file_hash;
+            return {};
+        }
+        PairList numbered =
+            own_ ? renumbered(*own_, frame_.file_faces) : expected_.list().in_file();
+        hash = own_ ? numbered.hash() : expected_.list().facts.file_hash;
+        return numbered;
+    }
+
+private:
+    const Expected& expected_;
+    const FrameOfPipelines& frame_;
+    std::optional<PairList> own_;  ///< if it is not the oracle's
+    std::vector<Pair> doubled_;    ///< some that were found more than once
+};
+
+namespace {
+
+/// Counts what is missed and what is false, and writes both to the cell's counters. `of` is part of their names.
+Differences count_errors(const PairList& found, const PairList& expected, const std::string& of,
+                         Cell& cell)
+{
+    const Differences wrong = differences(found, expected);
+    cell.counters["missed_" + of + "count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_" + of + "count"] = static_cast<double>(wrong.false_ones);
+    return wrong;
+}
+
+/// Counts the errors of a narrow phase that is not exact. One for swept boxes may find what does not touch, and misses nothing.
+void check_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
+{
+    const Differences wrong = count_errors(found, expected, "", cell);
+    if (!may_miss && (wrong.missed > 0 || found.surplus() > 0))
+        cell.check.find_wrong(std::to_string(found.surplus()) + " contacts were found twice, " +
+                              std::to_string(wrong.missed) + " missed; ");
+    if (cell.check.verdict == Check::Verdict::agrees)
+        cell.check.verdict = Check::Verdict::counted;
+    cell.check.detail += wrong.text("contacts");
+}
+
+/// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes
+/// `counted` if the pairs are the answer, and stays if they are candidates for a narrow phase.
+void check_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
+{
+    const Differences wrong = count_errors(found, expected, "pairs_", cell);
+    if (found.surplus() > 0 || wrong.missed > 0) {
+        cell.check.find_wrong(std::to_string(found.surplus()) + " pairs were found twice, " +
+                              std::to_string(wrong.missed) + " missed");
+    } else if (is_answer) {
+        cell.check.verdict = Check::Verdict::counted;
+        cell.check.detail = wrong.text();
+    }
+}
+
+}  // namespace
+
+void FrameVerdict::require_memory(const ColliderChoice& choice)
+{
+    const std::size_t bytes = find_collider(choice.name).host_bytes * frame_.input.triangle_count();
+    if (bytes == 0)
+        return;
+    require_host_memory("collider " + choice.name, bytes);
+    const std::uint64_t count = oracle_.pairs(choice).facts().set.count;
+    require_host_memory("collider " + choice.name + " for " + std::to_string(count) + " pairs",
+                        bytes + 4 * sizeof(Pair) * count);
+}
+
+void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
+{
+    cell.check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
+    found = {.scene = found.scene};
+    if (pipeline.has_pairs())
+        judge_pairs(pipeline, cell, found);
+    if (pipeline.has_contacts())
+        judge_contacts(pipeline, cell, found);
+    if (frame_.wants_lists)
+        found.times = pipeline.impact_times();
+    if (frame_.judge_more)
+        frame_.judge_more(found, cell);
+}
+
+/// True if the pairs can be judged without a list of them: they are a device's, exact, and nobody wants the list.
+bool FrameVerdict::needs_no_list(const Pipeline& pipeline, const Cell& cell) const
+{
+    return !pipeline.collider().is_on_host() && !frame_.wants_lists && cell.swept.pairs.empty() &&
+           !find_box_format(cell.builder.boxes).has_cells();
+}
+
+void FrameVerdict::judge_pairs(Pipeline& pipeline, Cell& cell, Found& found)
+{
+    constexpr double many = 1 << 24;  // fewer are copied to the host and hashed in 0.1 s
+    const bool by_device = needs_no_list(pipeline, cell);
+    try {
+        const Expected& expected = oracle_.pairs(cell.collider);
+        if (by_device && cell.counters.at("pairs_count") >= many &&
+            facts_on_device(session_, pipeline) == expected.facts().set) {
+            cell.check.against = pairs_oracle;
+            cell.check.pairs_hash = expected.facts().file_hash;
+        } else {  // a difference counts only if the list has it too
+            judge_pairs_by_list(pipeline, expected, cell, found);
+        }
+    } catch (const Unavailable&) {  // the host cannot list them
+        if (!by_device)
+            throw;
+        cell.check = verdict_of_devices(session_, pipeline, cell.collider, frame_.input);
+    }
+}
+
+void FrameVerdict::judge_pairs_by_list(const Pipeline& pipeline, const Expected& expected,
+                                       Cell& cell, Found& found) const
+{
+    const FoundList pairs(pipeline.pairs(), expected, frame_);
+    cell.check.against = pairs_oracle;
+    if (find_box_format(cell.builder.boxes).has_cells())
+        check_candidates(pairs.list(), expected.list().list, !pipeline.has_contacts(), cell);
+    else
+        pairs.add_differences("pairs", cell.check);
+    if (!cell.swept.pairs.empty())
+        count_errors(pairs.list(), expected.list().list, "", cell);
+    found.pairs = pairs.in_file(cell.check.pairs_hash);
+}
+
+void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& found)
+{
+    Check& check = cell.check;
+    if (!has_exact_reference) {
+        if (check.verdict == Check::Verdict::agrees) {
+            check.verdict = Check::Verdict::not_checked;
+            check.detail = "contacts: built without CGAL";
+        }
+        found.contacts = renumbered(PairList(pipeline.contacts()), frame_.file_faces);
+        check.contacts_hash = found.contacts.hash();
+        return;
+    }
+    check.against += check.against.empty() ? "CGAL" : ", CGAL";
+    const Expected& expected = oracle_.contacts(cell.collider);
+    const FoundList contacts(pipeline.contacts(), expected, frame_);
+    const bool is_swept = frame_.input.is_swept();
+    if (pipeline.collider().finds_contacts() || find_narrow_method(cell.collider.narrow).is_exact)
+        contacts.add_differences("contacts", check);
+    else
+        check_inexact(contacts.list(), expected.list().list, !is_swept, cell);
+    found.contacts = contacts.in_file(check.contacts_hash);
+    if (!is_swept && contacts.is_right())
+        cell.counters["touching_count"] = static_cast<double>(expected.facts().touching);
+}
+
+}  // namespace bvhbench
