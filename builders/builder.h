@@ -28,8 +28,8 @@ struct BuilderCard {
 
 /// Options of all builders. A builder ignores the options that do not apply to it.
 struct BuildOptions {
-    std::string_view order = "morton30";  ///< Order of the leaves: a name in order_catalog().
-    GridOver grid = GridOver::object;     ///< Bounds that codes are computed in (several objects).
+    std::string order = "morton30";    ///< Order of the leaves: a name in order_catalog().
+    GridOver grid = GridOver::object;  ///< Bounds that codes are computed in (several objects).
     /// Work-items per group, a power of two. 0: the builder chooses by kind of device.
     unsigned group_size = 0;
     /// Nodes that a work-item merges in registers before its group shares them, a power of two. 0: the builder chooses.
@@ -39,7 +39,9 @@ struct BuildOptions {
     bool sorted_leaves = false;
     /// Storage format of the tree's boxes: a name in box_formats(). Formats other than f32 require `sorted_leaves`; a builder
     /// that supports f32 only throws BadUsage for them.
-    std::string_view boxes = "f32";
+    std::string boxes = "f32";
+
+    bool operator==(const BuildOptions&) const = default;
 };
 
 /// Where a build starts. A later start reuses the results of the previous build on the same input.

@@ -2,6 +2,7 @@
 add_library(project_flags INTERFACE)
 target_compile_options(project_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion
+    -Wno-missing-field-initializers  # designated initializers leave the other members to their defaults
     # Where sources are compiled together, one may hide a global name of another.
     $<IF:$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>,-Wshadow=local,-Wshadow>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # GCC 12 reports false overlaps in std::string's operator+

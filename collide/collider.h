@@ -40,6 +40,8 @@ struct ColliderOptions {
     KernelForm form = KernelForm::of_device;
     /// Initial capacity of pair buffers and queues, in entries; 0: estimated. They grow when too small.
     std::size_t capacity = 0;
+
+    bool operator==(const ColliderOptions&) const = default;
 };
 
 /// Result and cost of a query. Every query of the same tree gives the same numbers.

@@ -19,8 +19,6 @@ OrderedBuilder::OrderedBuilder(Programs& programs, const BuilderCard& card,
                        " are made where leaves are lined up, so leaves must be sorted");
     if (options.sorted_leaves)
         gather_.emplace(programs, KernelForm::of_device, 0, format_);
-    options_.order = find_order(options.order).name;  // the caller's text may be freed
-    options_.boxes = format_.name;
 }
 
 void OrderedBuilder::require_floats() const

@@ -53,13 +53,11 @@ AxisMethod fastest_method(const Session& session, std::string name, std::string 
                           std::string narrow)
 {
     return {.name = std::move(name),
-            .builder = {.name = "oibvh-single",
-                        .order = "hilbert30",
-                        .sorted_leaves = true,
-                        .boxes = std::move(boxes)},
-            .collider = {.name = session.device().is_cpu() ? "group" : "block",
-                         .keep_adjacent = false,
-                         .narrow = std::move(narrow)},
+            .builder = {{.order = "hilbert30", .sorted_leaves = true, .boxes = std::move(boxes)},
+                        "oibvh-single"},
+            .collider = {{.keep_adjacent = false},
+                         session.device().is_cpu() ? "group" : "block",
+                         std::move(narrow)},
             .prepare = {}};
 }
 
@@ -119,13 +117,12 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
         if (order.medians != Medians::nowhere)
             continue;
         const std::string name(order.name);
-        add(name, {.name = "oibvh-multi", .order = name}, &order);
+        add(name, {{.order = name}, "oibvh-multi"}, &order);
         if (input.objects.size() > 1)
-            add(name + "-scene", {.name = "oibvh-multi", .order = name, .grid = GridOver::scene},
-                &order);
+            add(name + "-scene", {{.order = name, .grid = GridOver::scene}, "oibvh-multi"}, &order);
     }
     if (input.objects.size() == 1)
-        add("kd", {.name = "oibvh-multi", .order = "kd"}, nullptr);
+        add("kd", {{.order = "kd"}, "oibvh-multi"}, nullptr);
     add("radix", {.name = "apetrei-fused"}, nullptr);
     measure_methods(run, "codes", scene, methods);
 }

@@ -48,8 +48,7 @@ std::vector<NamedScene> scenes_of(const AxisRun& run)
 std::vector<PipelineChoice> pipelines()
 {
     const BuilderChoice oi = {.name = "oibvh-single"};
-    const BuilderChoice lined_up = {
-        .name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true};
+    const BuilderChoice lined_up = {{.order = "hilbert30", .sorted_leaves = true}, "oibvh-single"};
     std::vector<PipelineChoice> all = {{lined_up, {.name = "group"}},
                                        {lined_up, {.name = "block"}},
                                        {oi, {.name = "bvtt"}},
@@ -112,7 +111,7 @@ void measure_impacts(const AxisRun& run)
 {
     std::vector<PipelineChoice> all;
     for (const NarrowMethod& method : swept_narrow_methods())
-        all.push_back({{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true},
+        all.push_back({{{.order = "hilbert30", .sorted_leaves = true}, "oibvh-single"},
                        {.name = run.session.device().is_cpu() ? "group" : "block",
                         .narrow = std::string(method.name)}});
     measure_steps(run, "impacts", all, [](const BuilderChoice&, const ColliderChoice& collider) {

@@ -264,7 +264,7 @@ std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& pro
         return outside::make_builder(*entry.outside);
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
-    return entry.make(programs, choice.options());
+    return entry.make(programs, choice);
 }
 
 std::span<const ColliderEntry> collider_catalog() { return outside_entries().colliders; }
@@ -279,11 +279,10 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
     check_narrow(choice.narrow, choice.keep_adjacent);
     const ColliderEntry& entry = find_collider(choice.name);
     if (entry.outside != nullptr)
-        return outside::make_collider(*entry.outside, entry.refits, programs.device(),
-                                      choice.options());
+        return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice);
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
-    return entry.make(programs, choice.options());
+    return entry.make(programs, choice);
 }
 
 }  // namespace bvhbench

@@ -52,26 +52,11 @@ constexpr std::string_view operation_name(Operation operation)
     return names[static_cast<std::size_t>(operation)];
 }
 
-/// A builder and its options, as chosen on the command line or in an experiment. Owns its strings.
-struct BuilderChoice {
+/// A builder and its options, as chosen on the command line or in an experiment.
+struct BuilderChoice : BuildOptions {
     std::string name;
-    std::string order = "morton30";
-    GridOver grid = GridOver::object;
-    unsigned group_size = 0;
-    unsigned items = 0;
-    bool sorted_leaves = false;
-    std::string boxes = "f32";
 
     bool operator==(const BuilderChoice&) const = default;
-    BuildOptions options() const
-    {
-        return {.order = order,
-                .grid = grid,
-                .group_size = group_size,
-                .items = items,
-                .sorted_leaves = sorted_leaves,
-                .boxes = boxes};
-    }
 };
 
 /// Throws BadUsage if there is no such builder or box format, or if the builder or its leaf placement does not allow the format.
@@ -115,35 +100,16 @@ enum class FrameUpdate {
 /// What one of a builder's trees is over.
 enum class TreeOver { object, scene };
 
-/// A collider and its options, as chosen on the command line or in an experiment. Owns its strings.
-struct ColliderChoice {
+/// A collider and its options, as chosen on the command line or in an experiment. Result files do not store `form` and `capacity`,
+/// which only tests and `stress` set.
+struct ColliderChoice : ColliderOptions {
     std::string name;
-    Among among = Among::all;
-    bool keep_adjacent = true;
     std::string narrow = "none";  ///< narrow phase: "none" or a name of narrow_methods.h
-    unsigned jump = 0;
-    unsigned start_level = 0;
-    unsigned group_size = 0;
-    unsigned rules_off = 0;     ///< disabled rules, bits of collide/skips.h
-    unsigned rules_forced = 0;  ///< rules used although the device does without them by default
+    unsigned rules_forced = 0;    ///< rules used although the device does without them by default
     FrameUpdate update = FrameUpdate::automatic;
     TreeOver trees = TreeOver::object;
-    // Only tests and `stress` set these; result files do not store them.
-    KernelForm form = KernelForm::of_device;
-    std::size_t capacity = 0;
 
     bool operator==(const ColliderChoice&) const = default;
-    ColliderOptions options() const
-    {
-        return {.among = among,
-                .keep_adjacent = keep_adjacent,
-                .jump = jump,
-                .start_level = start_level,
-                .rules_off = rules_off,
-                .group_size = group_size,
-                .form = form,
-                .capacity = capacity};
-    }
 };
 
 /// Makes the chosen collider. Throws BadUsage if there is none, it does not support the options or the narrow phase is

@@ -105,7 +105,7 @@ private:
     std::string scene_;
     unsigned frame_ = 0;
     CellChoice choice_{.builder = {.name = "oibvh-multi"},
-                       .collider = {.name = "leaf", .keep_adjacent = false, .narrow = "exact"}};
+                       .collider = {{.keep_adjacent = false}, "leaf", "exact"}};
 };
 
 }  // namespace

@@ -69,15 +69,15 @@ std::shared_future<std::uint64_t> Oracle::begin(std::string_view reference,
 {
     std::shared_future<std::uint64_t>& hash = hashes_[{std::string(reference), order, boxes}];
     // A new builder with a new queue, since the cell under test may use the reference builder itself.
-    const auto built =
-        [this, choice = BuilderChoice{.name = std::string(reference), .order = order}, boxes] {
-            const auto builder = make_builder(choice, session_.programs());
-            builder->reserve(input_.triangle_count());
-            Queue queue(session_.device());
-            const Tree& tree = builder->build(input_, queue, Start::from_triangles);
-            queue.finish();
-            return tree_hash(rounded_to(tree.to_host_tree(), find_box_format(boxes)));
-        };
+    const auto built = [this, choice = BuilderChoice{{.order = order}, std::string(reference)},
+                        boxes] {
+        const auto builder = make_builder(choice, session_.programs());
+        builder->reserve(input_.triangle_count());
+        Queue queue(session_.device());
+        const Tree& tree = builder->build(input_, queue, Start::from_triangles);
+        queue.finish();
+        return tree_hash(rounded_to(tree.to_host_tree(), find_box_format(boxes)));
+    };
     if (!hash.valid())
         hash = std::async(std::launch::async, built);
     return hash;

@@ -33,9 +33,8 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
                                               facts.count, session.queue()));
 
     const bool is_grid = choice.name == "grid";
-    const ColliderChoice other = {.name = is_grid ? "leaf" : "grid",
-                                  .among = choice.among,
-                                  .keep_adjacent = choice.keep_adjacent};
+    const ColliderChoice other = {{.among = choice.among, .keep_adjacent = choice.keep_adjacent},
+                                  is_grid ? "leaf" : "grid"};
     Pipeline second(session, {.name = is_grid ? "oibvh-multi" : "none"}, other, input);
     second.prepare(input);
     const PairFacts others = facts_on_device(session, second);

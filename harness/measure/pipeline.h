@@ -84,7 +84,7 @@ private:
     void declare_found(std::vector<StageTime>& stages) const;
 
     Session& session_;
-    BuilderChoice choice_;    ///< outlives builder_, which may refer to its strings
+    BuilderChoice choice_;
     unsigned rules_off_ = 0;  ///< rules of skips.h that are not used, by choice or on this device
     FrameUpdate update_;
     bool has_begun_ = false;           ///< whether a frame has begun

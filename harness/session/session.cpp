@@ -72,10 +72,7 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
     for (const Made& made : builders_)
         if (made.choice == choice && made.operation == operation)
             return *made.builder;
-    std::list<Made> made;
-    made.push_back({choice, operation, nullptr});  // first, as the builder may refer to its strings
-    made.back().builder = make_builder(made.back().choice, programs_);
-    builders_.splice(builders_.end(), made);
+    builders_.push_back({choice, operation, make_builder(choice, programs_)});
     return *builders_.back().builder;
 }
 

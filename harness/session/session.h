@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -115,8 +114,7 @@ private:
     OtherProcesses other_processes_;
     SceneLibrary library_;
     Doubles doubles_asked_ = library_.doubles;
-    /// A list, so that choices keep their addresses: builders may refer to their strings.
-    std::list<Made> builders_;
+    std::vector<Made> builders_;
 };
 
 /// Returns the scene library of the folder --data, else BVHBENCH_DATA.

@@ -23,8 +23,8 @@ std::vector<Asker> askers()
 {
     const BuilderChoice builders[] = {{.name = "oibvh-multi"},
                                       {.name = "oibvh-single"},
-                                      {.name = "oibvh-multi", .sorted_leaves = true},
-                                      {.name = "oibvh-multi", .order = "kd"},
+                                      {{.sorted_leaves = true}, "oibvh-multi"},
+                                      {{.order = "kd"}, "oibvh-multi"},
                                       {.name = "apetrei"},
                                       {.name = "apetrei-fused"},
                                       {.name = "karras"},
@@ -36,7 +36,7 @@ std::vector<Asker> askers()
         all.push_back({{builder, {}}});
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
         for (const char* name : {"leaf", "group", "block", "bvtt", "front", "front-leaf", "grid"})
-            all.push_back({{builders[0], {.name = name, .form = form}}});
+            all.push_back({{builders[0], {{.form = form}, name}}});
     all.push_back({{builders[0], {.name = "leaf", .narrow = "exact"}}});
     return all;
 }

@@ -85,8 +85,7 @@ FoundPairs found_next(Pipeline& pipeline, const PipelineChoice& chosen, const In
 
 BuilderChoice in_format(std::string_view name, std::string_view boxes)
 {
-    return {
-        .name = std::string(name), .sorted_leaves = boxes != "f32", .boxes = std::string(boxes)};
+    return {{.sorted_leaves = boxes != "f32", .boxes = std::string(boxes)}, std::string(name)};
 }
 
 bool is_library(const PipelineChoice& choice)

@@ -21,7 +21,7 @@ protected:
     static std::unique_ptr<Collider> made(Among among, unsigned rules_off)
     {
         return make_collider(
-            {.name = GetParam(), .among = among, .keep_adjacent = false, .rules_off = rules_off},
+            {{.among = among, .keep_adjacent = false, .rules_off = rules_off}, GetParam()},
             session().programs());
     }
 };

@@ -33,10 +33,10 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
         for (const SceneObject& object : scene.objects)
             objects.push_back({object.first_face, object.face_count});
         const auto whole =
-            make_collider({.name = GetParam(), .keep_adjacent = false}, session().programs());
-        const auto between = make_collider(
-            {.name = GetParam(), .among = Among::between_objects, .keep_adjacent = false},
-            session().programs());
+            make_collider({{.keep_adjacent = false}, GetParam()}, session().programs());
+        const auto between =
+            make_collider({{.among = Among::between_objects, .keep_adjacent = false}, GetParam()},
+                          session().programs());
         const std::string kind = whole->finds_contacts() ? "exact_" : "aabb_";
         for (std::size_t k = 0; k < scene.frames.size(); ++k) {
             SCOPED_TRACE(std::string(name) + ", frame " + std::to_string(k));
@@ -65,10 +65,9 @@ TEST(LibraryColliders, AreListedAndRefusedWhereTheyWereNotBuilt)
     for (const char* name : {"embree", "embree-refit", "fcl", "fcl-refit"}) {
         const ColliderEntry& entry = find_collider(name);
         if (entry.make != nullptr) {
-            EXPECT_EQ(make_collider({.name = name, .keep_adjacent = false}, session().programs())
-                          ->card()
-                          .name,
-                      name);
+            EXPECT_EQ(
+                make_collider({{.keep_adjacent = false}, name}, session().programs())->card().name,
+                name);
             continue;
         }
         EXPECT_TRUE(entry.absent.starts_with("built without ")) << entry.absent;

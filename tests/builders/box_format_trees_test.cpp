@@ -15,10 +15,8 @@ namespace {
 
 BuilderChoice rounding(std::string_view name, std::string_view boxes, unsigned group_size)
 {
-    return {.name = std::string(name),
-            .group_size = group_size,
-            .sorted_leaves = true,
-            .boxes = std::string(boxes)};
+    return {{.group_size = group_size, .sorted_leaves = true, .boxes = std::string(boxes)},
+            std::string(name)};
 }
 
 std::string broken_over(Session& on, const BuilderChoice& choice, const Mesh& mesh)
@@ -80,7 +78,7 @@ TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
 TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
 {
     ManyObjects many({70, 129, 3});
-    const BuildOptions options{.sorted_leaves = true, .boxes = GetParam().name};
+    const BuildOptions options{.sorted_leaves = true, .boxes = std::string(GetParam().name)};
     const MakeBuilder make = find_builder("oibvh-multi").make;
     Standing updated = many.standing(make, options);
 

@@ -100,7 +100,7 @@ std::vector<Case> cases()
 
 BuildOptions tree_of(const BoxFormat& format)
 {
-    return {.sorted_leaves = true, .boxes = format.name};
+    return {.sorted_leaves = true, .boxes = std::string(format.name)};
 }
 
 /// Compares the pairs that a collider finds with those expected.

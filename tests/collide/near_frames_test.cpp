@@ -59,8 +59,7 @@ TEST_P(NearPipeline, FindsWhatIsFoundWithoutTheRule)
 INSTANTIATE_TEST_SUITE_P(
     Builders, NearPipeline,
     testing::Values(BuilderChoice{.name = "oibvh-multi"},
-                    BuilderChoice{
-                        .name = "oibvh-multi", .order = "hilbert30", .sorted_leaves = true},
+                    BuilderChoice{{.order = "hilbert30", .sorted_leaves = true}, "oibvh-multi"},
                     BuilderChoice{.name = "oibvh-single"}, BuilderChoice{.name = "perfect"},
                     BuilderChoice{.name = "apetrei-fused"}),
     [](const auto& tested) {

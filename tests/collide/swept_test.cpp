@@ -119,12 +119,12 @@ TEST(SweptBoxes, OfATriangleFallingThroughASheetMeetAsCountedByHand)
 {
     const Scene scene = falling_triangle();
     const SweptParts vf = vertices_and_faces(scene), edges = unique_edges(scene);
-    const ColliderChoice between = {
-        .name = "leaf", .among = Among::between_objects, .keep_adjacent = false};
+    const ColliderChoice between = {{.among = Among::between_objects, .keep_adjacent = false},
+                                    "leaf"};
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, swept_input(scene, vf)),
               PairList({{1, 8}, {3, 7}, {4, 7}, {4, 8}, {5, 7}, {5, 8}, {6, 7}, {6, 8}}));
-    const ColliderChoice within = {
-        .name = "leaf", .among = Among::within_objects, .keep_adjacent = false};
+    const ColliderChoice within = {{.among = Among::within_objects, .keep_adjacent = false},
+                                   "leaf"};
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, within, swept_input(scene, edges)),
               PairList({{1, 5}, {1, 6}, {1, 7}}));
     // In a single frame, hardly anything meets.
@@ -170,8 +170,8 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
                 if (!takes_combination({k, turn, form == KernelForm::chunks}))
                     continue;
                 SCOPED_TRACE(std::string(collider.name) + ' ' + name_of(form));
-                ColliderChoice choice = {
-                    .name = std::string(collider.name), .among = among[k], .keep_adjacent = false};
+                ColliderChoice choice = {{.among = among[k], .keep_adjacent = false},
+                                         std::string(collider.name)};
                 choice.form = form;
                 const BuilderChoice builder = {.name = collider.needs_tree ? GetParam() : "none"};
                 if (takes(builder, choice, input)) {
@@ -218,11 +218,11 @@ TEST(SweptBoxes, TakeNoNarrowPhaseOfOneMoment)
     const Scene scene = falling_triangle();
     const SweptParts edges = unique_edges(scene);
     const Input input = swept_input(scene, edges);
-    ColliderChoice narrow = {.name = "leaf", .keep_adjacent = false};
+    ColliderChoice narrow = {{.keep_adjacent = false}, "leaf"};
     narrow.narrow = "exact";
     EXPECT_THROW(pairs_by({.name = "oibvh-multi"}, narrow, input), BadUsage);
     if (find_collider("fcl").make != nullptr) {
-        const ColliderChoice fcl = {.name = "fcl", .keep_adjacent = false};
+        const ColliderChoice fcl = {{.keep_adjacent = false}, "fcl"};
         EXPECT_THROW(pairs_by({.name = "none"}, fcl, input), BadUsage);
     }
 }
@@ -249,9 +249,9 @@ TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
     CollideTask task;
     task.scene = "cloth-ball:600:12";
     task.pipelines = {
-        {{.name = "oibvh-single", .order = "hilbert30"}, {.name = "group"}},
+        {{{.order = "hilbert30"}, "oibvh-single"}, {.name = "group"}},
         {{.name = "oibvh-multi"}, {.name = "front"}},
-        {{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf", .among = Among::within_objects}}};
+        {{{.order = "kd"}, "oibvh-multi"}, {{.among = Among::within_objects}, "leaf"}}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 11u * 5u);
     std::vector<std::optional<std::uint64_t>> hashes;
@@ -270,7 +270,7 @@ TEST(SweptSteps, OverRoundedBoxesMissNothing)
     CollideTask task;
     task.scene = "cloth-ball:600:3";
     task.pipelines = {
-        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = "u8"},
+        {{{.order = "hilbert30", .sorted_leaves = true, .boxes = "u8"}, "oibvh-single"},
          {.name = "group"}}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 2u * 2u);
@@ -286,7 +286,7 @@ TEST(SweptSteps, RefuseWhatHasNoMeaningForThem)
     CollideTask task;
     task.needs_scene = true;
     task.scene = "cloth-ball:600:2";
-    task.pipelines = {{{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf"}}};
+    task.pipelines = {{{{.order = "kd"}, "oibvh-multi"}, {.name = "leaf"}}};
     EXPECT_THROW(cells_of(task), BadUsage);
     task.pipelines = {{{.name = "oibvh-multi"}, {.name = "leaf"}}};
     task.objects = ObjectsBy::components;
@@ -303,7 +303,7 @@ TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)
     CollideTask task;
     task.scene = "ipc_armadillo_rollers";
     task.pipelines = {
-        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true}, {.name = "group"}}};
+        {{{.order = "hilbert30", .sorted_leaves = true}, "oibvh-single"}, {.name = "group"}}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 2u);
     const double pairs[] = {2032004, 5068352}, listed[] = {4652, 19313};
@@ -325,10 +325,8 @@ TEST(SweptSteps, OfDataFindAllThatTouchesAndAFewBesides)
         GTEST_SKIP() << "built without CGAL: there is no reference";
     CollideTask task;
     task.scene = "ipc_armadillo_rollers";
-    ColliderChoice collider = {
-        .name = "group", .among = Among::between_objects, .narrow = "ccd-1e-4"};
-    task.pipelines = {
-        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true}, collider}};
+    ColliderChoice collider = {{.among = Among::between_objects}, "group", "ccd-1e-4"};
+    task.pipelines = {{{{.order = "hilbert30", .sorted_leaves = true}, "oibvh-single"}, collider}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 1u);
     const auto& counters = cells.front().counters;

@@ -11,7 +11,7 @@ Cell cell(const char* builder, const char* order, const char* collider, std::int
           std::int64_t tree, std::int64_t query)
 {
     Cell cell;
-    cell.builder = {.name = builder, .order = order};
+    cell.builder = {{.order = order}, builder};
     cell.collider.name = collider;
     cell.status = Cell::Status::measured;
     cell.check.verdict = Check::Verdict::agrees;

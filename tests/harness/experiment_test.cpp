@@ -74,15 +74,14 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     EXPECT_TRUE(tasks[0].may_stand_in);
     EXPECT_EQ(tasks[0].pipelines[0].builder.name, "none");
     EXPECT_EQ(tasks[0].pipelines[0].collider,
-              (ColliderChoice{.name = "brute", .narrow = "exact", .rules_off = skip_near}));
-    EXPECT_EQ(tasks[0].pipelines[1].builder,
-              (BuilderChoice{.name = "perfect", .sorted_leaves = true}));
-    EXPECT_EQ(tasks[0].pipelines[1].collider, (ColliderChoice{.name = "bvtt",
-                                                              .among = Among::within_objects,
-                                                              .keep_adjacent = false,
-                                                              .jump = 2,
-                                                              .start_level = 3,
-                                                              .group_size = 64}));
+              (ColliderChoice{{.rules_off = skip_near}, "brute", "exact"}));
+    EXPECT_EQ(tasks[0].pipelines[1].builder, (BuilderChoice{{.sorted_leaves = true}, "perfect"}));
+    EXPECT_EQ(tasks[0].pipelines[1].collider, (ColliderChoice{{.among = Among::within_objects,
+                                                               .keep_adjacent = false,
+                                                               .jump = 2,
+                                                               .start_level = 3,
+                                                               .group_size = 64},
+                                                              "bvtt"}));
     EXPECT_EQ(tasks[1].frames, (FrameRange{2, 5}));
     EXPECT_EQ(tasks[1].between, 3u);
     EXPECT_EQ(tasks[1].objects, ObjectsBy::components);
@@ -176,14 +175,14 @@ TEST(Experiment, ReadsEveryKey)
         "quick": {"samples": 2, "scenes": ["soup:1"]}})";
     const Experiment experiment = read(text);
     EXPECT_EQ(experiment.scenes, (std::vector<std::string>{"bunny", "soup:5:x", "soup:9:x"}));
-    EXPECT_EQ(experiment.builders[1], (BuilderChoice{.name = "oibvh-multi",
-                                                     .order = "morton63",
-                                                     .grid = GridOver::scene,
-                                                     .group_size = 128,
-                                                     .items = 2,
-                                                     .sorted_leaves = true}));
+    EXPECT_EQ(experiment.builders[1], (BuilderChoice{{.order = "morton63",
+                                                      .grid = GridOver::scene,
+                                                      .group_size = 128,
+                                                      .items = 2,
+                                                      .sorted_leaves = true},
+                                                     "oibvh-multi"}));
     EXPECT_EQ(experiment.builders[2],
-              (BuilderChoice{.name = "perfect", .sorted_leaves = true, .boxes = "u8"}));
+              (BuilderChoice{{.sorted_leaves = true, .boxes = "u8"}, "perfect"}));
     EXPECT_EQ(experiment.operations, (std::vector{Operation::build, Operation::refit}));
     EXPECT_EQ(experiment.start, Start::from_sorted_leaves);
     EXPECT_EQ(experiment.samples, 7);

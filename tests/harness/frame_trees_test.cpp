@@ -41,6 +41,12 @@ std::vector<Counters> run_frames(const Scene& scene, const BuilderChoice& builde
     return all;
 }
 
+ColliderChoice with_trees(TreeOver trees, ColliderChoice choice)
+{
+    choice.trees = trees;
+    return choice;
+}
+
 void expect_updates(const Counters& counters, double rebuilt, double refitted, double kept)
 {
     EXPECT_EQ(counters.at("rebuilt_objects_count"), rebuilt);
@@ -112,7 +118,7 @@ TEST(Update, LeavesOutTheRuleNearWhereItRefits)
     for (const FrameUpdate update : {FrameUpdate::rebuild, FrameUpdate::refit}) {
         const std::vector<Counters> frames =
             run_frames(scene, {.name = "oibvh-multi"},
-                       {.name = "leaf", .among = Among::between_objects, .update = update});
+                       {{.among = Among::between_objects}, "leaf", "none", 0, update});
         EXPECT_EQ(frames.at(1).contains("entered_count"), update == FrameUpdate::rebuild);
     }
 }
@@ -143,11 +149,11 @@ TEST_P(OneTreeOverTheScene, FindsThePairsOfItsObjects)
             for (const bool keep_adjacent : {true, false}) {
                 if (needs_implicit && std::string_view(builder) != "oibvh-multi")
                     continue;
-                for (const Counters& counters : run_frames(scene, {.name = builder},
-                                                           {.name = GetParam(),
-                                                           .among = among,
-                                                           .keep_adjacent = keep_adjacent,
-                                                           .trees = TreeOver::scene}))
+                for (const Counters& counters : run_frames(
+                         scene, {.name = builder},
+                         with_trees(
+                             TreeOver::scene,
+                             {{.among = among, .keep_adjacent = keep_adjacent}, GetParam()})))
                     EXPECT_EQ(counters.at("rebuilt_objects_count") +
                                   counters.at("refitted_objects_count"),
                               1);
@@ -167,13 +173,12 @@ TEST(OneTree, GivesTheNarrowPhaseTheTrueFaces)
     const Scene scene = load_scene("two-spheres:2000:6", {});
     const auto contacts_of = [&](TreeOver trees) {
         const Input input = upload_frame(session(), scene, 5);
-        Pipeline pipeline(session(), {.name = "oibvh-multi"},
-                          {.name = "group",
-                           .among = Among::between_objects,
-                           .keep_adjacent = false,
-                           .narrow = "exact",
-                           .trees = trees},
-                          input);
+        Pipeline pipeline(
+            session(), {.name = "oibvh-multi"},
+            with_trees(
+                trees,
+                {{.among = Among::between_objects, .keep_adjacent = false}, "group", "exact"}),
+            input);
         pipeline.begin_frame({});
         pipeline.prepare(input);
         return PairList(pipeline.contacts());
@@ -189,7 +194,7 @@ TEST(OneTree, IsKeptIfNothingMoves)
     scene.frames[1] = scene.frames[0];
     const std::vector<Counters> frames =
         run_frames(scene, {.name = "oibvh-multi"},
-                   {.name = "group", .among = Among::between_objects, .trees = TreeOver::scene});
+                   with_trees(TreeOver::scene, {{.among = Among::between_objects}, "group"}));
     expect_updates(frames.at(0), 1, 0, 0);
     expect_updates(frames.at(1), 0, 0, 1);
     expect_updates(frames.at(2), 1, 0, 0);  // objects move rigidly, but not together
@@ -198,10 +203,8 @@ TEST(OneTree, IsKeptIfNothingMoves)
 TEST(OneTree, IsRefusedWhereItCannotBe)
 {
     const BuilderChoice multi{.name = "oibvh-multi"};
-    const ColliderChoice between{.name = "leaf",
-                                 .among = Among::between_objects,
-                                 .keep_adjacent = false,
-                                 .trees = TreeOver::scene};
+    const ColliderChoice between = with_trees(
+        TreeOver::scene, {{.among = Among::between_objects, .keep_adjacent = false}, "leaf"});
     Scene scene = load_scene("cloth-ball:2000:2", {});
     ColliderChoice within = between;
     within.among = Among::within_objects;

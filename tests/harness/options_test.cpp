@@ -50,13 +50,13 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
     const Json builder = {{"order", "morton63"}, {"grid", "scene"}, {"group_size", 64},
                           {"items", 4},          {"boxes", "u16"},  {"leaves", "sorted"}};
     read_choices(builder, Choice::Of::builder, choice);
-    EXPECT_EQ(choice.builder, (BuilderChoice{.name = {},
-                                             .order = "morton63",
-                                             .grid = GridOver::scene,
-                                             .group_size = 64,
-                                             .items = 4,
-                                             .sorted_leaves = true,
-                                             .boxes = "u16"}));
+    EXPECT_EQ(choice.builder, (BuilderChoice{{.order = "morton63",
+                                              .grid = GridOver::scene,
+                                              .group_size = 64,
+                                              .items = 4,
+                                              .sorted_leaves = true,
+                                              .boxes = "u16"},
+                                             {}}));
     EXPECT_EQ(choices_json(choice, Choice::Of::builder), builder);
     read_choices({{"pairs_of", "between"},
                   {"adjacent", "drop"},
@@ -68,17 +68,17 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                  Choice::Of::query, choice);
     read_choices({{"jump", 3}, {"start_level", 4}, {"group_size", 128}}, Choice::Of::collider,
                  choice);
-    EXPECT_EQ(choice.collider, (ColliderChoice{.name = {},
-                                               .among = Among::between_objects,
-                                               .keep_adjacent = false,
-                                               .narrow = "exact",
-                                               .jump = 3,
-                                               .start_level = 4,
-                                               .group_size = 128,
-                                               .rules_off = skip_near,
-                                               .rules_forced = skip_rigid,
-                                               .update = FrameUpdate::refit,
-                                               .trees = TreeOver::scene}));
+    EXPECT_EQ(choice.collider, (ColliderChoice{{.among = Among::between_objects,
+                                                .keep_adjacent = false,
+                                                .jump = 3,
+                                                .start_level = 4,
+                                                .rules_off = skip_near,
+                                                .group_size = 128},
+                                               {},
+                                               "exact",
+                                               skip_rigid,
+                                               FrameUpdate::refit,
+                                               TreeOver::scene}));
     choice.builder.name = "karras";
     choice.collider.name = "leaf";
     EXPECT_NO_THROW(check_choice(choice));
@@ -99,7 +99,7 @@ TEST(Choices, OfOtherBoxesSortLeavesUnlessTheyAreSaid)
     EXPECT_TRUE(choice.builder.sorted_leaves);
     read_choices({{"leaves", "mesh"}, {"boxes", "u16"}}, Choice::Of::builder, choice);
     EXPECT_FALSE(choice.builder.sorted_leaves);
-    EXPECT_THROW(check_choice({.builder = {.name = "karras", .boxes = "u16"}}), BadUsage);
+    EXPECT_THROW(check_choice({.builder = {{.boxes = "u16"}, "karras"}}), BadUsage);
 }
 
 TEST(Choices, ThatAreWrongGetTheSameSentenceWhereverTheyStand)

@@ -22,9 +22,9 @@ public:
     PipelineFrames(const Scene& scene, const char* builder, unsigned rules_off) : scene_(scene)
     {
         input_ = upload_frame(session(), scene, 0);
-        const ColliderChoice collider{.name = "group", .rules_off = rules_off};
+        const ColliderChoice collider{{.rules_off = rules_off}, "group"};
         pipeline_ = std::make_unique<Pipeline>(
-            session(), BuilderChoice{.name = builder, .order = "hilbert30"}, collider, input_);
+            session(), BuilderChoice{{.order = "hilbert30"}, builder}, collider, input_);
     }
 
     std::map<std::string, double> go_to(std::size_t frame, std::span<const Motion> motions)
@@ -118,7 +118,7 @@ TEST(Transfers, AreOfPipelinesThatReadOrWriteTheDevice)
     };
     for (const ColliderChoice& collider :
          {ColliderChoice{.name = "group"},
-          ColliderChoice{.name = "brute", .keep_adjacent = false, .narrow = "exact"}}) {
+          ColliderChoice{{.keep_adjacent = false}, "brute", "exact"}}) {
         const std::map<std::string, double> transfers = transfers_of(collider);
         EXPECT_GT(transfers.at("upload_ns"), 0) << collider.name;
         EXPECT_GT(transfers.at("read_back_ns"), 0) << collider.name;
@@ -147,8 +147,8 @@ TEST(VerdictOfDevices, AgreesWithRightPairs)
 {
     for (const char* name : {"leaf", "grid"})
         for (const Among among : {Among::all, Among::between_objects}) {
-            const ColliderChoice collider{
-                .name = name, .among = among, .keep_adjacent = among != Among::all};
+            const ColliderChoice collider{{.among = among, .keep_adjacent = among != Among::all},
+                                          name};
             const Check check = verdict_on("n-body:12200:2", collider, false, false);
             EXPECT_EQ(check.verdict, Check::Verdict::agrees) << name << ": " << check.detail;
             EXPECT_NE(check.detail.find(" pairs of the hash "), std::string::npos);
@@ -157,7 +157,7 @@ TEST(VerdictOfDevices, AgreesWithRightPairs)
 
 TEST(VerdictOfDevices, NeedsBothTheOtherAlgorithmAndBruteForceToAgree)
 {
-    const ColliderChoice collider{.name = "leaf", .keep_adjacent = false};
+    const ColliderChoice collider{{.keep_adjacent = false}, "leaf"};
     for (const bool device_moves : {false, true}) {
         const Check check = verdict_on("n-body:12200:2", collider, device_moves, !device_moves);
         EXPECT_EQ(check.verdict, Check::Verdict::differs);

@@ -68,13 +68,17 @@ TEST(Record, KeepsBytesThatAreNoUtf8OutOfTheFile)
 TEST(Record, TellsAllThatACellIsAbout)
 {
     Cell cell = fake_cell("oibvh-reference");
-    cell.builder = {.name = "karras",
-                    .order = "morton63",
-                    .grid = GridOver::scene,
-                    .sorted_leaves = true,
-                    .boxes = "u16"};
+    cell.builder = {
+        {.order = "morton63", .grid = GridOver::scene, .sorted_leaves = true, .boxes = "u16"},
+        "karras"};
     cell.operation = Operation::collide;
-    cell.collider = {"leaf", Among::between_objects, false, "exact", 3, 2, 64};
+    cell.collider = {{.among = Among::between_objects,
+                      .keep_adjacent = false,
+                      .jump = 3,
+                      .start_level = 2,
+                      .group_size = 64},
+                     "leaf",
+                     "exact"};
     cell.scene.outlier = {"bunny", 3, 2.5};
     cell.scene.bend_of = "bunny";
     cell.scene.rounding = {Doubles::recentred, {4500123.45, -2, 0.1}, -3, 17, 1.25e-7};
