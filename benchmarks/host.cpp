@@ -39,8 +39,7 @@ constexpr std::uint64_t sum_below(std::uint64_t count) { return count * (count -
 /// Returns the sum of the slots of all nodes of a tree. Slots are 0, 1, 2, ...
 std::uint64_t sum_of_slots()
 {
-    uint count = leaves;
-    benchmark::DoNotOptimize(count);  // else the compiler may compute the sum
+    const volatile uint count = leaves;  // else the compiler may compute the sum
     const OiShape shape = oi_shape(count);
     std::uint64_t sum = 0;
     for (uint level = 0; level <= shape.leaf_level; ++level)
@@ -56,9 +55,9 @@ void add_codes(const char* name, Outcome& outcome, Code code)
     constexpr uint cells = side * side * side;
     add_host(name, outcome, cells, sum_below(cells), [code] {
         std::uint64_t sum = 0;
-        uint count = cells;
-        benchmark::DoNotOptimize(count);  // else the sum is computed once, or by the compiler
-        for (uint k = 0; k < count; ++k)
+        const volatile uint count = cells;  // else the sum is computed once, or by the compiler
+        const uint end = count;
+        for (uint k = 0; k < end; ++k)
             sum += code(GridCell{k / side / side, k / side % side, k % side});
         return sum;
     });
