@@ -67,7 +67,7 @@ def scene_name(cell: Cell) -> str:
 
 def family_of(cell: Cell) -> str:
     """Returns the scene's name without its number of triangles, if it has one: "torus" of "torus:1000". Empty for meshes."""
-    kind = re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene)
+    kind = re.sub(rf":{re.escape(str(cell.triangles))}(?=:|$)", "", cell.scene)
     return kind if kind != cell.scene else ""
 
 

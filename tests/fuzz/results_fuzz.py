@@ -68,7 +68,7 @@ def of_its_kind(value: Any, chance: random.Random) -> Any:
         return chance.choice(TEXTS)
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return chance.choice((*NUMBERS, value * 10**6, -value))
-    return chance.choice(OTHERS)
+    return copy.deepcopy(chance.choice(OTHERS))
 
 
 def changed(document: Any, chance: random.Random) -> Any:
@@ -78,7 +78,7 @@ def changed(document: Any, chance: random.Random) -> Any:
     if way < 4:
         container[key] = of_its_kind(container[key], chance)
     elif way == 4:
-        container[key] = chance.choice((*NUMBERS, *TEXTS, *OTHERS, deep()))
+        container[key] = copy.deepcopy(chance.choice((*NUMBERS, *TEXTS, *OTHERS, deep())))
     elif way == 5:
         del container[key]
     elif way == 6:
