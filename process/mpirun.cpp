@@ -139,8 +139,8 @@ std::optional<unsigned> ranks_started()
     return std::nullopt;
 }
 
-int run_ranks(unsigned ranks, const std::vector<std::string>& words, std::size_t columns,
-              double time_limit_s)
+RanksEnd run_ranks(unsigned ranks, const std::vector<std::string>& words, std::size_t columns,
+                   double time_limit_s)
 {
     if (!is_program("mpirun"))
         throw Unavailable(
@@ -186,17 +186,16 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words, std::size_t
     const bool has_exited = end.how == ProcessEnd::How::exited;
     if (has_exited && end.code == 0) {
         std::cerr << end.output;
-        return 0;
+        return {};
     }
     if (const std::string lost = lost_rank(end.output); !lost.empty())
         throw NothingMeasured(lost);
     if (const std::string said = own_sentence(end.output); !said.empty() && has_exited) {
         const bool is_of_rank = end.code != 2;  // which is wrong usage
-        std::cerr << own_lines << (is_of_rank ? rank_before(said, end.output) : "") << said << '\n';
-        return end.code;
+        return {end.code, (is_of_rank ? rank_before(said, end.output) : "") + said};
     }
     if (has_exited && RE2::PartialMatch(end.output, "Exit code:\\s+" + std::to_string(end.code)))
-        return end.code;            // a rank said why in its table
+        return {end.code};          // a rank said why in its table
     constexpr int by_signal = 128;  // and more, by the signal
     if (has_exited && end.code > by_signal && end.code < by_signal + NSIG) {
         // A rank that was lost while it started: mpirun then sometimes says no more.

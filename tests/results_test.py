@@ -24,13 +24,6 @@ def read(path: pathlib.Path) -> dict:
     return json.loads(lzma.decompress(packed) if path.suffix == ".xz" else packed)
 
 
-def cluster_validator(document: dict) -> jsonschema.Draft202012Validator:
-    """Returns a validator by the schema of the document's format."""
-    schema = read(ROOT / "results" / "schema" / f"{document['format'].split('.')[0]}.schema.json")
-    jsonschema.Draft202012Validator.check_schema(schema)
-    return jsonschema.Draft202012Validator(schema)
-
-
 class Schema(unittest.TestCase):
     def setUp(self) -> None:
         schema = read(ROOT / "results" / "schema" / "result-1.schema.json")
@@ -63,35 +56,37 @@ class Schema(unittest.TestCase):
                         self.fail(f"{path}: {error.json_path}: {error.message}")
         self.assertGreaterEqual(count, 2)
 
-    def test_every_file_of_a_cluster_obeys(self) -> None:
+    def test_every_cell_of_several_ranks_is_right(self) -> None:
         seen = set()
         for path in sorted((ROOT / "results").rglob("cluster-*.json.xz")):
-            document = read(path)
-            for one in [document, *(run["result"] for run in document.get("runs", []))]:
-                seen.add(one["format"].split(".")[0])
-                for error in cluster_validator(one).iter_errors(one):
-                    self.fail(f"{path}: {error.json_path}: {error.message}")
-                if "pairs_count" in one:
-                    self.assertEqual(one["check"]["verdict"], "agrees", path)
-        self.assertEqual(seen, {"cluster-1", "cluster-runs-1", "cluster-simulation-1"})
+            for cell in read(path)["cells"]:
+                simulated = cell["cluster"]["simulated"]
+                seen.add((cell["experiment"], simulated))
+                self.assertEqual(cell["check"]["verdict"], "not_checked" if simulated else "agrees", path)
+        self.assertEqual(seen, {("cluster", False), ("strong", False), ("weak", False), ("halo", True)})
 
-    def test_refuses_wrong_files_of_scale_and_of_simulated_ranks(self) -> None:
-        self.document = read(ROOT / "results" / "pocl-2-cores" / "cluster-halo.json.xz")
-        self.validator = cluster_validator(self.document)
-        run = self.document["runs"][0]
-        simulated = run["result"]
-        for place, key, words in ((run, "result", "'result' is a required property"), (self.document, "experiment", "'experiment'")):
-            kept = place.pop(key)
-            self.assert_refused(words)
-            place[key] = kept
-        run["status"] = "failed"
-        self.assert_refused("'reason' is a required property")
-        run["surprise"] = 1
-        self.assert_refused("'surprise' was unexpected")
-        self.document, self.validator = simulated, cluster_validator(simulated)
-        self.validator.validate(simulated)
-        simulated["ranks"][0]["halo_sent_count"] = -1
-        self.assert_refused("-1 is less than the minimum")
+    def test_refuses_wrong_cells_of_several_ranks(self) -> None:
+        for name, of_simulated in (("pocl-2-cores/cluster-halo", True), ("h200/cluster-most", False)):
+            self.document = read(ROOT / "results" / f"{name}.json.xz")
+            self.validator.validate(self.document)
+            cell = self.document["cells"][0]
+            cluster = cell["cluster"]
+            rank = cluster["ranks"][0]
+            of_both = (cell, "cluster"), (cell, "check"), (cluster, "partition"), (cluster, "halo_share"), (cluster, "ranks")
+            of_one = ((cluster, "box_bytes"), (rank, "targets_count")) if of_simulated else ((cluster, "pairs_count"), (rank, "samples"))
+            for place, key in (*of_both, *of_one):
+                kept = place.pop(key)
+                self.assert_refused(f"'{key}' is a required property")
+                place[key] = kept
+            cell["status"] = "failed"
+            self.assert_refused("'reason' is a required property")
+            cell |= {"status": "measured"}
+            for place in (cluster, rank):
+                place["surprise"] = 1
+                self.assert_refused("'surprise' was unexpected")
+                del place["surprise"]
+            rank["halo_sent_count"] = -1
+            self.assert_refused("-1 is less than the minimum")
 
     def test_refuses_a_time_without_a_verdict(self) -> None:
         del self.measured["check"]

@@ -43,12 +43,12 @@ const BuilderEntry& find_builder(std::string_view name);
 
 /// What a cell measures: a build, a refit of an existing tree, a whole frame (tree update and query), or errors along an axis of
 /// accuracy.
-enum class Operation { build, refit, collide, accuracy };
+enum class Operation { build, refit, collide, accuracy, cluster };
 
 /// Returns the operation's name in experiments and result files.
 constexpr std::string_view operation_name(Operation operation)
 {
-    constexpr std::string_view names[] = {"build", "refit", "collide", "accuracy"};
+    constexpr std::string_view names[] = {"build", "refit", "collide", "accuracy", "cluster"};
     return names[static_cast<std::size_t>(operation)];
 }
 

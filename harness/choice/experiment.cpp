@@ -87,10 +87,16 @@ Experiment experiment_of(const Json& json, bool quick)
         json, {"experiment",  "question",      "paper",   "scenes",  "builders", "operations",
                "pipelines",   "stages",        "samples", "warm_up", "until",    "min_samples",
                "max_samples", "time_budget_s", "race",    "caches",  "quality",  "doubles",
-               "skips",       "quick",         "label"},
+               "skips",       "quick",         "label",   "clusters"},
         "an experiment");
-    const bool collides = json.contains("pipelines");
-    for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
+    const bool collides = json.contains("pipelines"), has_ranks = json.contains("clusters");
+    if (has_ranks)
+        refuse_unknown_keys(json, {"experiment", "question", "paper", "label", "clusters"},
+                            "an experiment with 'clusters'");
+    for (const char* key : {"experiment", has_ranks ? "clusters" : "scenes",
+                            has_ranks  ? "clusters"
+                            : collides ? "pipelines"
+                                       : "builders"})
         if (!json.contains(key))
             throw BadUsage("an experiment must have the key '" + std::string(key) + "'");
     Experiment experiment;
@@ -109,7 +115,11 @@ Experiment experiment_of(const Json& json, bool quick)
         experiment.collisions = collisions_of(json, experiment.name, quick);
     for (CollideTask& task : experiment.collisions)
         task.sampling = experiment.sampling;
-    if (collides && !json.contains("builders"))
+    if (has_ranks)
+        read_list(json, "clusters", [&](const Json& entry) {
+            experiment.clusters.push_back(cluster_task_of(entry, experiment.name));
+        });
+    if (has_ranks || (collides && !json.contains("builders")))
         return experiment;
     read_size(json, experiment);
     if (json.contains("stages"))

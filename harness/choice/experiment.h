@@ -11,6 +11,7 @@
 #include "builders/builder.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/catalog.h"
+#include "harness/choice/cluster_task.h"
 #include "harness/choice/scene_choice.h"
 
 namespace bvhbench {
@@ -38,6 +39,7 @@ struct Experiment {
     bool quality = false;
     /// One task per scene, for an experiment with pipelines. Scenes and builders may then be empty.
     std::vector<CollideTask> collisions;
+    std::vector<ClusterTask> clusters;  ///< scenes on several ranks; all other lists may be empty
     int samples = 30;
     int warm_up = 3;
     SamplingRules sampling;

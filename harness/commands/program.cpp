@@ -72,6 +72,9 @@ public:
             throw BadUsage("name a command: " + joined(listed) +
                            "; `bvhbench --help` says what they do");
         check_outputs_are_named(*app_.get_subcommands().front());
+        for (const CLI::Option* option : app_.get_options())
+            for (const std::string& value : option->results())
+                invocation_.common.given.push_back(option->get_name() + '=' + value);
     }
 
     int run()

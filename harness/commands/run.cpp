@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/run.h"
+#include "harness/measure/cluster_by_ranks.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <set>
@@ -67,10 +69,9 @@ public:
         const std::set<std::string> keys = keys_of(planned_scenes(plan, filter, {}, settings));
         if (resumes())
             results.check_earlier(keys, run_facts(session.device(), {}));
-        Run run(session, results, costs_);
+        Run run(session, results, costs_, common);
         const auto begin = [&] {
-            results.begin(results.has_begun() ? Json()
-                                              : measured_facts(session, invocation.words, costs_));
+            results.begin(results.has_begun() ? Json() : facts(session, invocation, plan));
             watchdog::resume_after_crash(results.run_id());
             session.take_turns(turns_, results.run_id());
         };
@@ -109,11 +110,21 @@ private:
             experiment.sampling.until = 0;
             for (CollideTask& task : experiment.collisions)
                 task.samples = samples_;
+            for (ClusterTask& task : experiment.clusters)
+                task.samples = samples_;
         }
         sampling_.apply(experiment.sampling);
         for (CollideTask& task : experiment.collisions)
             task.sampling = experiment.sampling;
         experiment.quality = experiment.quality || quality_;
+    }
+
+    Json facts(Session& session, const Invocation& invocation, const RunPlan& plan) const
+    {
+        Json facts = measured_facts(session, invocation.words, costs_);
+        const auto has_ranks = [](const Experiment& part) { return !part.clusters.empty(); };
+        return std::ranges::any_of(plan.parts, has_ranks) ? with_cluster_facts(std::move(facts))
+                                                          : facts;
     }
 
     std::string out(const RunPlan& plan) const
@@ -128,6 +139,8 @@ private:
         for (const Experiment& experiment : plan.parts) {
             scenes.insert(scenes.end(), experiment.scenes.begin(), experiment.scenes.end());
             for (const CollideTask& task : experiment.collisions)
+                scenes.push_back(task.scene);
+            for (const ClusterTask& task : experiment.clusters)
                 scenes.push_back(task.scene);
         }
         std::vector<std::string> inputs = files_of(scenes, scene_library(common));

@@ -72,11 +72,9 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
     const bool is_first = ranks.rank() == first_rank;
     ClusterFound found;
     ClusterResult& result = found.result;
-    result.partition = task.partition;
-    result.pipeline = task.pipeline;
-    result.boxes = task.boxes;
-    result.shares_devices = task.share_devices;
-    if (task.frames != FrameRange{}) {
+    result.task = task;
+    result.task.ranks = ranks.count();
+    if (task.moves()) {
         run_cluster_frames(ranks, session, task, found);
         return found;
     }
@@ -140,15 +138,13 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
     return found;
 }
 
-Simulation simulate_cluster(Session& session, const ClusterTask& task, uint ranks)
+Simulation simulate_cluster(Session& session, const ClusterTask& task)
 {
     Simulation simulation;
-    simulation.partition = task.partition;
-    simulation.builder = task.pipeline.builder;
-    simulation.boxes = task.boxes;
+    simulation.task = task;
     LoneRank lone;
-    std::vector<Share> shares =
-        shares_of(first_share(task, session, lone, simulation.scene), task.partition, ranks);
+    std::vector<Share> shares = shares_of(first_share(task, session, lone, simulation.scene),
+                                          task.partition, task.simulates);
     simulation.ranks = simulated(shares, task.boxes, session.programs(), session.queue(),
                                  *make_builder(task.pipeline.builder, session.programs()));
     const auto largest = std::ranges::max_element(shares, {}, &Share::triangle_count);

@@ -9,27 +9,6 @@
 
 namespace bvhbench {
 
-/// What the pairs are compared with: those that one device finds in the whole scene, or those of the other partition and of
-/// brute force over a sample. Automatic: the first if a device can hold the scene.
-enum class ClusterCheck { automatic, one_device, partitions };
-
-inline constexpr std::string_view cluster_check_names[] = {"auto", "one-device", "partitions"};
-
-struct ClusterTask {
-    std::string scene;
-    PartitionBy partition = PartitionBy::rcb;
-    PipelineChoice pipeline;
-    ClusterCheck check = ClusterCheck::automatic;
-    uint boxes = usual_top_boxes;  ///< that a rank tells the others
-    FrameRange frames;             ///< of the scene; of several, each is a sample
-    double rebalance = 1.1;  ///< work of a rank, divided by the mean, above which rcb cuts anew
-    int samples = 5;
-    std::uint64_t most_gathered = 100'000'000;  ///< pairs that the first rank lists
-    bool wants_pairs = false;                   ///< it lists them however many there are
-    bool wants_contacts = false;                ///< the same of contacts
-    bool share_devices = false;                 ///< whether ranks of a host may have one device
-};
-
 /// What rank 0 has at the end; the other ranks have empty ones.
 struct ClusterFound {
     Scene scene;        ///< all triangles as one object
@@ -47,7 +26,7 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
 /// wait, so the caller ends them.
 ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task);
 
-/// Counts what each of `ranks` ranks would send and receive, without running them, and times the largest part on this device.
-Simulation simulate_cluster(Session& session, const ClusterTask& task, uint ranks);
+/// Counts what each of `task.simulates` ranks would send and receive, without running them, and times the largest part on this device.
+Simulation simulate_cluster(Session& session, const ClusterTask& task);
 
 }  // namespace bvhbench

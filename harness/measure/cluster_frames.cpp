@@ -38,7 +38,7 @@ Check verdict_of_all(const std::vector<ClusterEvidence>& evidence, const Scene& 
     for (std::size_t k = 0; k < evidence.size(); ++k) {
         const std::size_t frame = result.frames[k].frame;
         check = verdict_of_one_device(evidence[k], scene.frames[frame], scene.faces, session,
-                                      result.pipeline);
+                                      result.task.pipeline);
         if (check.verdict == Check::Verdict::agrees)
             continue;
         check.detail = "frame " + std::to_string(frame) + ": " + check.detail;

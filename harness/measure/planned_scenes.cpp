@@ -8,12 +8,19 @@
 #include "geometry/hash.h"
 #include "harness/base/failure.h"
 #include "harness/measure/collide.h"
+#include "harness/record/cluster_result.h"
 
 namespace bvhbench {
 namespace {
 
 /// Cost of a process's start, in triangles.
 constexpr std::size_t triangles_of_a_start = 100'000;
+
+/// Returns what a filter is held against.
+std::string text_of(const std::string& scene, const PipelineChoice& pipeline)
+{
+    return scene + '/' + pipeline.builder.name + '/' + pipeline.collider.name;
+}
 
 }  // namespace
 
@@ -48,8 +55,8 @@ std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& 
     std::vector<PlannedScene> found;
     std::size_t number = 0;
     const auto add = [&](const Experiment& experiment, const std::string& name, std::size_t cells,
-                         const CollideTask* task) {
-        PlannedScene planned{&experiment, number, task, name, "", 0};
+                         const CollideTask* task, const ClusterTask* cluster = nullptr) {
+        PlannedScene planned{&experiment, number, task, cluster, name, "", 0};
         if (!share.has(number++) || cells == 0)
             return;
         std::size_t triangles = 0;
@@ -70,6 +77,9 @@ std::vector<PlannedScene> planned_scenes(const RunPlan& plan, const CellFilter& 
             add(experiment, task.scene, chosen(task, filter).size(), &task);
         for (const std::string& name : experiment.scenes)
             add(experiment, name, chosen(experiment, name, filter).size(), nullptr);
+        for (const ClusterTask& task : experiment.clusters)
+            add(experiment, task.scene, passes(filter, text_of(task.scene, task.pipeline)) ? 1 : 0,
+                nullptr, &task);
     }
     return found;
 }
@@ -78,8 +88,7 @@ std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& fi
 {
     std::vector<PipelineChoice> pipelines = task.pipelines;
     std::erase_if(pipelines, [&](const PipelineChoice& pipeline) {
-        return !passes(filter,
-                       task.scene + '/' + pipeline.builder.name + '/' + pipeline.collider.name);
+        return !passes(filter, text_of(task.scene, pipeline));
     });
     return pipelines;
 }
@@ -97,7 +106,9 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
 std::vector<Cell> planned_cells(const PlannedScene& planned, const CellFilter& filter)
 {
     std::vector<Cell> cells;
-    if (planned.collides != nullptr)
+    if (planned.cluster != nullptr)
+        cells.push_back(planned_cell(*planned.cluster));
+    else if (planned.collides != nullptr)
         for (const PipelineChoice& pipeline : chosen(*planned.collides, filter)) {
             Cell& cell = cells.emplace_back(planned_cell(*planned.collides, pipeline));
             if (!find_collider(cell.collider.name).needs_tree)

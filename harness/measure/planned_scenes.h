@@ -29,11 +29,12 @@ CellFilter cell_filter(const std::string& text, const char* option = "--filter")
 /// True if any part of `cell` matches the filter, or if that is null.
 bool passes(const CellFilter& filter, const std::string& cell);
 
-/// A scene of a plan, with its builders or with its pipelines.
+/// A scene of a plan, with its builders, with its pipelines, or on several ranks.
 struct PlannedScene {
     const Experiment* experiment;
     std::size_t number;           ///< among all scenes of the plan
-    const CollideTask* collides;  ///< nullptr: a scene of builds, `name`
+    const CollideTask* collides;  ///< nullptr: a scene of builds, `name`, or of ranks
+    const ClusterTask* cluster;   ///< nullptr: not of ranks
     std::string name;
     std::string key;  ///< a hash of all that decides what is measured; empty: it has none
     double weight;    ///< for guesses of its time: cells times triangles, as far as these are known

@@ -14,6 +14,7 @@
 #include "harness/base/test_hooks.h"
 #include "harness/judge/check.h"
 #include "harness/judge/metrics.h"
+#include "harness/measure/cluster_by_ranks.h"
 #include "harness/measure/collide.h"
 #include "harness/measure/contest.h"
 #include "harness/measure/engine.h"
@@ -203,7 +204,9 @@ void Run::measure(const PlannedScene& planned, const CellFilter& filter, Progres
     const watchdog::CellScope scope(name);  // for a process that ends outside of a cell
     number_ = planned.number;
     session_.read_doubles(experiment.doubles);
-    if (planned.collides != nullptr)
+    if (planned.cluster != nullptr)
+        cluster(*planned.cluster);
+    else if (planned.collides != nullptr)
         collisions(*planned.collides, filter, progress);
     else
         scene(experiment, planned.name, chosen(experiment, planned.name, filter), progress);
@@ -224,6 +227,28 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
                 results_.add(cell);
         },
         [&](std::size_t cells) { return results_.pass(cells); });
+}
+
+void Run::cluster(const ClusterTask& task)
+{
+    if (results_.pass(1))
+        return;
+    Cell cell = planned_cell(task);
+    bool cannot_be = false;
+    cell.reason = reason_of_failure(
+        [&] {
+            if (task.simulates != 0)
+                cell = cell_of(simulate_cluster(session_, task));
+            else
+                results_.add(cell_by_ranks(task, common_));
+        },
+        &cannot_be);
+    if (!cell.reason.empty()) {
+        session_.renew_queue();
+        cell.status = cannot_be ? Cell::Status::skipped : Cell::Status::failed;
+    }
+    if (task.simulates != 0 || !cell.reason.empty())
+        results_.add(cell);
 }
 
 void Run::scene(const Experiment& experiment, const std::string& name,

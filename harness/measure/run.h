@@ -23,9 +23,14 @@ Json measured_facts(Session& session, std::vector<std::string> command,
 /// A builder or scene that fails leaves a cell with the reason, and the run continues.
 class Run {
 public:
-    /// `results` takes the cells.
-    Run(Session& session, ResultFile& results, const NodeCosts& costs)
-        : session_(session), costs_(costs), results_(results), order_(results.next_order())
+    /// `results` takes the cells. `common` is for ranks, which are processes of their own.
+    Run(Session& session, ResultFile& results, const NodeCosts& costs,
+        const CommonOptions& common = {})
+        : session_(session)
+        , costs_(costs)
+        , common_(common)
+        , results_(results)
+        , order_(results.next_order())
     {}
 
     /// Measures all cells of an experiment. A cell that cannot be measured has the reason.
@@ -39,11 +44,13 @@ public:
 private:
     void measure(const PlannedScene& planned, const CellFilter& filter, Progress& progress);
     void collisions(CollideTask task, const CellFilter& filter, Progress& progress);
+    void cluster(const ClusterTask& task);
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
 
     Session& session_;
     NodeCosts costs_;
+    CommonOptions common_;
     ResultFile& results_;
     int order_ = 0;
     std::size_t number_ = 0;  ///< of the scene that is measured

@@ -10,7 +10,7 @@
 #include "cluster/share.h"
 #include "geometry/hash.h"
 #include "harness/base/table.h"
-#include "harness/choice/choices.h"
+#include "scenes/catalog.h"
 
 namespace bvhbench {
 namespace {
@@ -180,27 +180,37 @@ std::int64_t frame_ns(const ClusterResult& result)
     return median(std::move(frames));
 }
 
-Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
+Cell planned_cell(const ClusterTask& task)
 {
-    run["libraries"]["MPI"] = mpi;
-    const CellChoice choice{result.pipeline.builder, result.pipeline.collider};
-    Json json = {{"format", "cluster-1.0"},
-                 {"run", std::move(run)},
-                 {"scene",
-                  {{"name", result.scene.name},
-                   {"triangles", result.scene.triangles},
-                   {"vertices", result.scene.vertices}}},
-                 {"partition", partition_names[static_cast<std::size_t>(result.partition)]},
-                 {"builder", {{"name", choice.builder.name}, {"order", choice.builder.order}}},
-                 {"collider",
-                  {{"name", choice.collider.name},
-                   {"adjacent", choice.collider.keep_adjacent ? "keep" : "drop"},
-                   {"narrow", choice.collider.narrow}}},
-                 {"boxes_count", result.boxes},
-                 {"shares_devices", result.shares_devices}};
-    if (result.scene.content_hash != 0)
-        json["scene"]["content_hash"] = hex(result.scene.content_hash);
-    if (!result.shares_devices) {
+    Cell cell;
+    cell.experiment = task.experiment;
+    cell.scene.name = scene_name(task.scene);
+    cell.scene.objects = 1;
+    cell.scene.frame = static_cast<std::int64_t>(task.frames.first);
+    cell.builder = task.pipeline.builder;
+    cell.collider = task.pipeline.collider;
+    cell.operation = Operation::cluster;
+    cell.cluster = {{"ranks_count", std::max(task.ranks, task.simulates)},
+                    {"simulated", task.simulates != 0},
+                    {"partition", partition_names[static_cast<std::size_t>(task.partition)]},
+                    {"boxes_count", task.boxes},
+                    {"shares_devices", task.share_devices}};
+    if (task.moves())
+        cell.cluster.update(
+            {{"asked_frames", frame_range_text(task.frames)}, {"rebalance", task.rebalance}});
+    return cell;
+}
+
+Cell cell_of(const ClusterResult& result)
+{
+    const bool has_times = !result.task.share_devices;
+    Cell cell = planned_cell(result.task);
+    cell.scene.triangles = result.scene.triangles;
+    cell.scene.vertices = result.scene.vertices;
+    cell.scene.content_hash = result.scene.content_hash;
+    cell.check = result.check;
+    Json& json = cell.cluster;
+    if (has_times) {
         json["partition_ns"] = result.partition_ns;
         json["frame_ns"] = frame_ns(result);
     }
@@ -212,13 +222,6 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
         json["contacts_count"] = result.contacts->count;
         json["contacts_set_hash"] = set_hash(*result.contacts);
     }
-    json["check"] = {{"verdict", verdict_name(result.check.verdict)},
-                     {"against", result.check.against},
-                     {"detail", result.check.detail}};
-    if (result.check.pairs_hash)
-        json["check"]["pairs_hash"] = hex(*result.check.pairs_hash);
-    if (result.check.contacts_hash)
-        json["check"]["contacts_hash"] = hex(*result.check.contacts_hash);
     for (const ClusterFrame& frame : result.frames) {
         Json one = {{"frame", frame.frame},
                     {"pairs_count", frame.pairs.count},
@@ -228,14 +231,14 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
                     {"moved_bytes", frame.moved_triangles * sizeof(CarriedTriangle)}};
         if (frame.contacts)
             one["contacts_count"] = frame.contacts->count;
-        if (!result.shares_devices)
+        if (has_times)
             one["rebalance_ns"] = frame.rebalance_ns;
         json["frames"].push_back(std::move(one));
     }
     json["ranks"] = Json::array();
     for (const ClusterRank& rank : result.ranks)
-        json["ranks"].push_back(rank_json(rank, !result.shares_devices));
-    return json;
+        json["ranks"].push_back(rank_json(rank, has_times));
+    return cell;
 }
 
 std::string cluster_table(const ClusterResult& result, std::size_t width)
@@ -243,20 +246,20 @@ std::string cluster_table(const ClusterResult& result, std::size_t width)
     std::set<std::string> devices;
     for (const ClusterRank& rank : result.ranks)
         devices.insert(rank.device);
-    std::string text = result.scene.name + " (" + std::to_string(result.scene.triangles) +
-                       " triangles), " + result.pipeline.collider.name + " over " +
-                       result.pipeline.builder.name + ", " + std::to_string(result.ranks.size()) +
-                       (result.ranks.size() == 1 ? " rank, " : " ranks, ") +
-                       std::string(partition_names[static_cast<std::size_t>(result.partition)]);
+    std::string text =
+        result.scene.name + " (" + std::to_string(result.scene.triangles) + " triangles), " +
+        result.task.pipeline.collider.name + " over " + result.task.pipeline.builder.name + ", " +
+        std::to_string(result.ranks.size()) + (result.ranks.size() == 1 ? " rank, " : " ranks, ") +
+        std::string(partition_names[static_cast<std::size_t>(result.task.partition)]);
     for (const std::string& device : devices)
         text += "\ndevice: " + device;
     text += "\n" + counts_table(result).text(width);
     text += frames_lines(result);
-    if (!result.shares_devices)
+    if (!result.task.share_devices)
         text += times_table(result).text(width);
     text += "halo: " + fixed(100 * halo_share(result), 1) +
             " % of the triangles; imbalance: " + fixed(imbalance(result), 3) + " of the mean\n";
-    text += result.shares_devices
+    text += result.task.share_devices
                 ? "ranks share a device: their times mean nothing and are left out\n"
                 : "frame: " + duration_text(static_cast<double>(frame_ns(result))) +
                       " by the host's clock, median of " +

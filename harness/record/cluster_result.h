@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What `bvhbench cluster` found and measured, as a table and as a file (results/schema/cluster-1.schema.json).
+// What `bvhbench cluster` found and measured, as a table and as a cell of a result file.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "cluster/frame.h"
-#include "cluster/partition.h"
-#include "harness/base/json_keys.h"
-#include "harness/choice/scene_choice.h"
+#include "harness/choice/cluster_task.h"
 #include "harness/record/record.h"
 
 namespace bvhbench {
@@ -37,12 +35,8 @@ struct ClusterFrame {
 };
 
 struct ClusterResult {
+    ClusterTask task;
     SceneFacts scene;
-    PartitionBy partition = PartitionBy::rcb;
-    PipelineChoice pipeline;
-    unsigned boxes = 0;  ///< that each rank told all others
-    bool shares_devices =
-        false;  ///< several ranks had one device: times mean nothing and are left out
     std::int64_t partition_ns = 0;  ///< host clock: cutting, and moving triangles to their ranks
     std::vector<ClusterRank> ranks;
     PairFacts pairs;                    ///< of all ranks together
@@ -51,8 +45,11 @@ struct ClusterResult {
     Check check;                        ///< has no hash of the list if only facts were compared
 };
 
-/// Returns the document, with `run`, the facts of the run, and the MPI library's name.
-Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi);
+/// Returns a cell that says what was asked for and has no measurements yet.
+Cell planned_cell(const ClusterTask& task);
+
+/// Returns the cell of a result file. Ranks that may share a device have no times, because these mean nothing.
+Cell cell_of(const ClusterResult& result);
 
 /// Returns a table with a row for each rank, medians over its frames, and lines that sum up. `width`: as Table::text.
 std::string cluster_table(const ClusterResult& result, std::size_t width);

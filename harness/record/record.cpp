@@ -72,7 +72,8 @@ Json json_of(const SceneFacts& scene)
             json["mesh"] = *scene.mesh;
             json["reading"] = scene.reading;
         }
-        json["content_hash"] = hex(scene.content_hash);
+        if (scene.content_hash != 0)  // no process of a cluster may have the whole scene
+            json["content_hash"] = hex(scene.content_hash);
     }
     return json;
 }
@@ -122,6 +123,8 @@ std::string cell_text(const Cell& cell)
         json["accuracy"] = {{"axis", cell.accuracy.axis}, {"method", cell.accuracy.method}};
     if (cell.accuracy.seed > 0)
         json["accuracy"]["seed"] = cell.accuracy.seed;
+    if (!cell.cluster.is_null())
+        json["cluster"] = cell.cluster;
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "device/queue.h"
+#include "harness/base/json_keys.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/sampling.h"
 #include "harness/record/finding.h"
@@ -110,6 +111,7 @@ struct Cell {
     ColliderChoice collider;  ///< empty name: none
     SweptFacts swept;
     AccuracyFacts accuracy;
+    Json cluster = {};  ///< of several ranks: what record/cluster_result.h has; else null
     Operation operation = Operation::build;
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed

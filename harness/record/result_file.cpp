@@ -205,14 +205,22 @@ void ResultFile::leave()
 
 void ResultFile::add(const Cell& cell)
 {
+    append({.text = cell_text(cell),
+            .run = run_.value("id", ""),
+            .verdict = std::string(verdict_name(cell.check.verdict)),
+            .reason = cell.reason,
+            .is_measured = cell.status == Cell::Status::measured});
+}
+
+void ResultFile::add(Json cell) { append(text_of(std::move(cell), run_.value("id", ""))); }
+
+void ResultFile::append(const CellText& cell)
+{
     const std::lock_guard lock(mutex_);
-    has_measured_ = has_measured_ || cell.status == Cell::Status::measured;
-    const std::string text = cell_text(cell);
-    cells_.push_back({.text = part_.empty() ? text : with_key(text, "part", part_),
-                      .run = run_.value("id", ""),
-                      .verdict = std::string(verdict_name(cell.check.verdict)),
-                      .reason = cell.reason,
-                      .is_measured = cell.status == Cell::Status::measured});
+    has_measured_ = has_measured_ || cell.is_measured;
+    cells_.push_back(cell);
+    if (!part_.empty())
+        cells_.back().text = with_key(cell.text, "part", part_);
     is_written_ = false;
     journal_.append(part_, "cell", cells_.back().text);
 }

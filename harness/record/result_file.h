@@ -76,6 +76,8 @@ public:
     void take_rest();
 
     void add(const Cell& cell);
+    /// Adds the JSON of a cell that ranks have measured.
+    void add(Json cell);
     void add(const StressCell& cell);
     /// Adds the JSON of a cell that cannot be measured.
     void add_impossible(const Json& cell);
@@ -114,6 +116,7 @@ public:
     std::string written() const;
 
 private:
+    void append(const CellText& cell);
     void take_over(std::span<const Json> cells);
     std::vector<CellText> all_cells() const;
     Json unfinished_parts() const;

@@ -6,6 +6,7 @@
 
 #include "cluster/halo_query.h"
 #include "harness/base/table.h"
+#include "harness/record/cluster_result.h"
 
 namespace bvhbench {
 namespace {
@@ -40,38 +41,36 @@ double imbalance(const Simulation& simulation)
 /// Returns the time of a frame by the model: that of the largest part, and what ranks tell each other.
 std::int64_t model_ns(const Simulation& simulation)
 {
-    return simulation.part_ns + exchange_ns(simulation.ranks, simulation.boxes);
+    return simulation.part_ns + exchange_ns(simulation.ranks, simulation.task.boxes);
 }
 
 std::uint64_t box_bytes(const Simulation& simulation)
 {
-    return (simulation.ranks.size() - 1) * simulation.boxes * sizeof(Aabb);
+    return (simulation.ranks.size() - 1) * simulation.task.boxes * sizeof(Aabb);
 }
 
 }  // namespace
 
-Json simulation_json(const Simulation& simulation, Json run)
+Cell cell_of(const Simulation& simulation)
 {
-    Json json = {
-        {"format", "cluster-simulation-1.1"},
-        {"run", std::move(run)},
-        {"scene", {{"name", simulation.scene.name}, {"triangles", simulation.scene.triangles}}},
-        {"partition", partition_names[static_cast<std::size_t>(simulation.partition)]},
-        {"builder", {{"name", simulation.builder.name}, {"order", simulation.builder.order}}},
-        {"boxes_count", simulation.boxes},
-        {"halo_share", halo_share(simulation)},
-        {"imbalance", imbalance(simulation)},
-        {"box_bytes", box_bytes(simulation)},
-        {"part_ns", simulation.part_ns},
-        {"model_ns", model_ns(simulation)},
-        {"ranks", Json::array()}};
+    Cell cell = planned_cell(simulation.task);
+    cell.scene.triangles = simulation.scene.triangles;
+    cell.scene.vertices = simulation.scene.vertices;
+    cell.check.detail = "what ranks would send was counted, and no pairs were found";
+    Json& json = cell.cluster;
+    json.update({{"halo_share", halo_share(simulation)},
+                 {"imbalance", imbalance(simulation)},
+                 {"box_bytes", box_bytes(simulation)},
+                 {"part_ns", simulation.part_ns},
+                 {"model_ns", model_ns(simulation)},
+                 {"ranks", Json::array()}});
     for (const SimulatedRank& rank : simulation.ranks)
         json["ranks"].push_back({{"triangles", rank.triangles},
                                  {"halo_sent_count", rank.halo_sent},
                                  {"halo_received_count", rank.halo_received},
                                  {"targets_count", rank.targets},
                                  {"sources_count", rank.sources}});
-    return json;
+    return cell;
 }
 
 std::string simulation_text(const Simulation& simulation)
@@ -90,8 +89,9 @@ std::string simulation_text(const Simulation& simulation)
     return simulation.scene.name + " (" + std::to_string(simulation.scene.triangles) +
            " triangles) on " + std::to_string(simulation.ranks.size()) +
            (simulation.ranks.size() == 1 ? " rank" : " ranks") + ", simulated: " +
-           std::string(partition_names[static_cast<std::size_t>(simulation.partition)]) + ", " +
-           simulation.builder.name + ", " + std::to_string(simulation.boxes) + " boxes a rank\n" +
+           std::string(partition_names[static_cast<std::size_t>(simulation.task.partition)]) +
+           ", " + simulation.task.pipeline.builder.name + ", " +
+           std::to_string(simulation.task.boxes) + " boxes a rank\n" +
            line("halo: %.1f %% of the triangles; imbalance: %.3f of the mean\n",
                 100 * halo_share(simulation), imbalance(simulation)) +
            "a frame of a rank sends " + halo_bytes(sent) + " of triangles in the mean, " +

@@ -44,16 +44,16 @@ def main(words: list[str]) -> int:
     half = len(files) // 2
     rules = Rules(threshold=arguments.threshold, allow_missing=arguments.allow_missing, allow_dirty=arguments.allow_dirty,
                   other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks, builders=arguments.builders)
-    if any(map(rank_files.kind_of, files)):
-        for name in files:
-            if not rank_files.kind_of(name):
-                raise output.WrongUsage(f"{name} is no file of `bvhbench cluster` or `scale`, and the other is")
+    parts = [documents.read(str(name)) for name in files]
+    of_ranks = [rank_files.is_of_ranks(document) for document in parts]
+    if any(of_ranks):
+        if not all(of_ranks):
+            raise output.WrongUsage(f"{files[of_ranks.index(False)]} is no file of `bvhbench cluster` or `scale`, and the other is")
         if half > 1:
             raise output.WrongUsage("files of `bvhbench cluster` and `scale` are compared one with one")
-        text, regressions = ranks.compare(*((name, rank_files.read(name)) for name in files), rules, arguments.all)
+        text, regressions = ranks.compare(*zip(files, parts, strict=True), rules, arguments.all)
         print(text, end="")
         return 1 if regressions else 0
-    parts = [documents.read(str(name)) for name in files]
     for one, other in zip(range(half), range(half, len(files)), strict=True):
         require_comparable((files[one], parts[one]), (files[other], parts[other]), rules)
     names = files[0], files[half]

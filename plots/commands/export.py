@@ -6,7 +6,7 @@ from ..files import output
 from ..files.json_files import Refused
 from ..files.reserved import reserved
 from ..program import command
-from ..read import input_files, results
+from ..read import input_files, rank_files, results
 
 FORMATS = {"google-benchmark": google_benchmark.text, "csv": csv_table.text, "customSmallerIsBetter": action.text}
 NAMES = "google-benchmark, csv or customSmallerIsBetter"
@@ -49,9 +49,10 @@ def loaded(file: input_files.Given) -> results.Run | None:
     run = results.everything(file.path)
     for hook, value in run.facts.get("test_hooks", {}).items():
         raise Refused(f"{file.path}: made under the test hook {hook}={value}: it is no result")
-    if run.all_cells:
+    if run.all_cells and not rank_files.is_of_ranks(run.document):
         return run
-    why = f"{file.path}: there are no cells to export in it{', its results are of stress' if run.stress else ''}"
+    what = "stress" if run.stress else "several ranks" if run.all_cells else ""
+    why = f"{file.path}: there are no cells to export in it{f', its results are of {what}' if what else ''}"
     if not file.is_of_folder:
         raise Refused(why)
     output.say(f"bvhbench: {why}")

@@ -1,4 +1,4 @@
-"""bvhbench scale: runs one scene on more and more ranks, a start of `bvhbench cluster` for each cell.
+"""bvhbench scale: makes a plan of one scene on more and more ranks, and runs it.
 
 Needs the standard library alone, because machines with many devices often have no more.
 """
@@ -6,17 +6,13 @@ import argparse
 import json
 import pathlib
 import re
-import subprocess
-import sys
 import tempfile
-from dataclasses import dataclass
 from typing import Any
 
-from ..files import output, reserved
-from ..files.json_files import Refused, parsed
+from ..files import output
 from ..program import child, command
 
-FORMAT = "cluster-runs-1.1"
+Json = dict[str, Any]
 RANKS = (1, 2, 4, 8)
 HALO_RANKS, HALO_BOXES = (2, 8, 64), (1, 64)
 STRONG, WEAK, HALO = 67_108_864, 33_554_432, 1_152_000  # triangles: in all, a rank, in all
@@ -24,28 +20,11 @@ PIPELINE = ("builder", "order", "collider")
 QUICK = 64  # with --quick, sizes are divided by this
 
 
-@dataclass(frozen=True)
-class Cell:
-    scene: str
-    ranks: int
-    partition: str = "rcb"
-    boxes: int = 0  # that a rank tells the others; 0: ranks run, else what they would send is counted
-
-    def words(self) -> list[str]:
-        return ["cluster", self.scene, "--partition", self.partition, "--simulate" if self.boxes else "--ranks", str(self.ranks),
-                *(["--boxes", str(self.boxes)] if self.boxes else [])]
-
-    @property
-    def label(self) -> str:
-        boxes = f", {self.boxes} box{'es' * (self.boxes > 1)} a rank" if self.boxes else ""
-        return f"{self.scene}, {self.ranks} rank{'s' * (self.ranks > 1)}, {self.partition}{boxes}"
-
-
 def parser() -> command.Parser:
     words = command.Parser(
         "scale", "Run one scene on more and more devices: strong and weak scaling, and the share of the halo",
-        "Each cell is a start of `bvhbench cluster` with ranks on this host. The file is written anew after each cell. More ranks "
-        "than there are devices are noted as failed. halo counts what ranks would send, and runs none.",
+        "Writes a plan and measures it by `bvhbench run --resume`, with ranks on this host: the same command again goes on where it was "
+        "interrupted. More ranks than there are devices are noted as failed. halo counts what ranks would send, and runs none.",
         [("bvhbench scale strong --out strong.json", "torus:67108864 on 1, 2, 4 and 8 devices"),
          ("bvhbench scale weak --out weak.json", "33,554,432 triangles a rank"),
          ("bvhbench scale halo --out halo.json --quick", "what ranks send, of a small scene")], "docs/cluster.md")
@@ -71,7 +50,8 @@ def ranks_of(arguments: argparse.Namespace) -> list[int]:
     return sorted({int(one) for one in arguments.ranks.split(",")})
 
 
-def cells_of(arguments: argparse.Namespace) -> list[Cell]:
+def clusters_of(arguments: argparse.Namespace) -> list[Json]:
+    """Returns the entries of the plan, one for each part."""
     kind, is_bare = arguments.experiment, re.fullmatch(r"[a-z-]+", arguments.scene)
     if kind == "weak" and not is_bare:
         raise output.WrongUsage(f"weak needs a generator's name, whose size grows with the ranks, not '{arguments.scene}'")
@@ -79,70 +59,31 @@ def cells_of(arguments: argparse.Namespace) -> list[Cell]:
     def scene(triangles: int) -> str:
         return f"{arguments.scene}:{triangles // (QUICK if arguments.quick else 1)}" if is_bare else arguments.scene
 
-    ranks = ranks_of(arguments)
+    ranks, partitions = ranks_of(arguments), [arguments.partition] if arguments.partition else ["rcb", "curve"]
     if kind == "halo":
-        return [Cell(scene(HALO), count, partition, boxes) for count in ranks
-                for partition in ([arguments.partition] if arguments.partition else ["rcb", "curve"]) for boxes in HALO_BOXES]
-    return [Cell(scene(WEAK * count if kind == "weak" else STRONG), count, arguments.partition or "rcb") for count in ranks]
+        return [{"scene": scene(HALO), "simulate": count, "partition": partition, "boxes": boxes}
+                for count in ranks for partition in partitions for boxes in HALO_BOXES]
+    return [{"scene": scene(WEAK * count if kind == "weak" else STRONG), "ranks": count, "partition": partitions[0]} for count in ranks]
 
 
-def measured(cell: Cell, options: list[str]) -> dict[str, Any]:
-    """Runs a cell. Returns its entry of the file."""
-    entry: dict[str, Any] = {"scene": cell.scene, "ranks": cell.ranks, "partition": cell.partition}
-    with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
-        file, errors = pathlib.Path(folder, "cell.json"), pathlib.Path(folder, "errors")
-        with errors.open("wb") as taken:
-            code, _ = child.run([*cell.words(), "--json", str(file), *options], errors=taken)
-        said = errors.read_text(errors="replace")
-        print(said, end="", file=sys.stderr, flush=True)
-        if code - 128 in command.ENDING:
-            raise command.Ended(code - 128)
-        if code == 2:  # wrong usage, which other cells share
-            raise SystemExit(code)
-        if not file.exists():
-            sentence = re.search(r"^bvhbench: (.+)", said, re.MULTILINE)
-            return entry | {"status": "failed", "reason": sentence[1] if sentence else f"bvhbench cluster ended with exit code {code}"}
-        result = parsed(file)
-        is_wrong = result.get("check", {}).get("verdict") == "differs"
-        return entry | ({"status": "failed", "reason": f"a wrong answer: {result['check']['detail']}"} if is_wrong else
-                        {"status": "measured"}) | {"result": result}
+def label_of(cluster: Json) -> str:
+    count, boxes = cluster.get("ranks", cluster.get("simulate")), cluster.get("boxes")
+    many = f", {boxes} box{'es' * (boxes > 1)} a rank" if boxes else ""
+    return f"{cluster['scene']}, {count} rank{'s' * (count > 1)}, {cluster['partition']}{many}"
 
 
-def topology() -> dict[str, str]:
-    """Returns how the host's NVIDIA devices are linked, as nvidia-smi prints it; nothing where it cannot tell."""
-    try:
-        done = subprocess.run(["nvidia-smi", "topo", "-m"], capture_output=True, text=True, timeout=60, check=True)
-    except (OSError, subprocess.SubprocessError):
-        return {}
-    return {"topology": re.sub(r"\x1b\[[\d;]*m", "", done.stdout).rstrip()}
+def plan_of(arguments: argparse.Namespace) -> Json:
+    """Returns the plan for `run`: a part for each cell."""
+    samples = arguments.samples if arguments.samples is not None else 3 if arguments.experiment == "halo" else 20
+    asked = {name: value for name in PIPELINE if (value := getattr(arguments, name)) is not None} | {"samples": samples}
+    return {"experiment": arguments.experiment,
+            "parts": [{"label": label_of(cluster), "clusters": [cluster | asked]} for cluster in clusters_of(arguments)]}
 
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    samples = arguments.samples if arguments.samples is not None else 3 if arguments.experiment == "halo" else 20
-    if not 1 <= samples <= 10000:
-        raise output.WrongUsage(f"--samples: {samples} is not from 1 to 10000")
-    cells, runs = cells_of(arguments), []
-    document = {"format": FORMAT, "experiment": arguments.experiment, "command": ["bvhbench", "scale", *words], **topology(), "runs": runs}
-    options = command.common_words(arguments, "--force") + ["--samples", str(samples)]
-    for name in PIPELINE:
-        options += [f"--{name}", getattr(arguments, name)] if getattr(arguments, name) else []
-    with reserved.reserved(arguments.out, "--out", arguments.force):
-        for number, cell in enumerate(cells, 1):
-            entry = measured(cell, options)
-            runs.append(entry)
-            output.write(arguments.out, (json.dumps(document, indent=1) + "\n").encode())
-            print(f"[{number}/{len(cells)}] {cell.label}: {found(entry)}", flush=True)
-    if all(entry["status"] == "failed" for entry in runs):
-        raise Refused(f"no cell was measured; the first: {runs[0]['reason']}")
-    return 1 if any("wrong" in entry.get("reason", "") for entry in runs) else 0
-
-
-def found(entry: dict[str, Any]) -> str:
-    """Returns what a cell found, for its line."""
-    if entry["status"] != "measured":
-        return entry["reason"]
-    result = entry["result"]
-    frame = f"{result['frame_ns'] / 1e6:.3f} ms, " if "frame_ns" in result else ""
-    verdict = f", {result['check']['verdict'].replace('_', ' ')}" if "check" in result else ""
-    return f"{frame}halo {100 * result['halo_share']:.1f} %{verdict}"
+    with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
+        plan = pathlib.Path(folder, f"{arguments.experiment}.json")
+        plan.write_text(json.dumps(plan_of(arguments), indent=1), encoding="utf-8")
+        return child.run_shown([["run", str(plan), "--out", arguments.out, "--quiet", "--force" if arguments.force else "--resume",
+                                 *command.common_words(arguments, "--force")]])

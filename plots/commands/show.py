@@ -22,8 +22,6 @@ def main(words: list[str]) -> int:
 
 
 def text(file: str) -> str:
-    if rank_files.kind_of(file):
-        return rank_table.text(rank_files.read(file))
     run = results.everything(file)
     try:
         return ranking_text.of_cells(run.all_cells) + ranking_text.warning_lines(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
@@ -32,9 +30,11 @@ def text(file: str) -> str:
 
 
 def pages(run: results.Run) -> str:
-    """Returns the tables for the file's contents: axes of accuracy, stress, frames of `collide`, one cell, or an experiment."""
+    """Returns the tables for the file's contents: axes of accuracy, several ranks, stress, frames of `collide`, one cell, or an experiment."""
     if axes := accuracy_table.text(run):
         return axes
+    if rank_files.is_of_ranks(run.document):
+        return rank_table.text(run)
     if run.stress:
         return stress_table.text(run)
     if run.all_cells and all(one.experiment == "collide" for one in run.all_cells):
@@ -44,6 +44,6 @@ def pages(run: results.Run) -> str:
         return cell.text(run.all_cells[0], run)
     if all(one.experiment == skip_table.EXPERIMENT for one in run.all_cells):
         return cells.text(run) + skip_table.of_scenes(run)
-    pages_of = (cells.text, builder_table.text, frame_table.text, swept_table.text, trees.refits, trees.quality, trees.roofline, trees.yardstick, skip_table.of_scenes,
+    pages_of = (cells.text, builder_table.text, frame_table.text, swept_table.text, trees.refits, trees.quality, trees.roofline, trees.yardstick, rank_table.text, skip_table.of_scenes,
                 best_table.families_of)
     return "".join(page(run) for page in pages_of)

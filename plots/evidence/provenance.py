@@ -72,25 +72,19 @@ def is_in_history(commit: str) -> bool:
     return done.returncode == 0
 
 
-def frames(document: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """Yields the results of `bvhbench cluster` in a file of it or of `bvhbench scale`."""
-    yield from [document] if "ranks" in document else (run["result"] for run in document.get("runs", []) if "result" in run)
-
-
 def programs(document: dict[str, Any]) -> Iterator[tuple[str, bool]]:
     """Yields commit and dirtiness of each program that made a part of a result file."""
-    parts = document.get("merged_from") or [frame["run"]["program"] for frame in frames(document)] or [document["run"]["program"]]
+    parts = document.get("merged_from") or [document["run"]["program"]]
     yield from ((part["commit"], part["dirty"]) for part in parts)
 
 
 def works(document: dict[str, Any]) -> set[Work]:
-    """Returns what the cells of a result file did, or its frames. `bvhbench stress` launches all kernels but those of
-    several ranks."""
-    cells = [Cell(raw) for raw in document.get("cells", [])]
+    """Returns what the cells of a result file did. `bvhbench stress` launches all kernels but those of several ranks."""
+    cells = [Cell(raw) for raw in document["cells"]]
     found = {Work(cell.builder, cell.collider or "", tuple(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
                                                            for stage in cell.samples[0])) for cell in cells if cell.samples}
-    found |= {Work(frame["builder"]["name"], frame.get("collider", {}).get("name", ""),
-                   (*OF_FRAME, *(("exchange",) if len(frame["ranks"]) > 1 else ()))) for frame in frames(document)}
+    found |= {Work(cell.builder, cell.collider or "", (*OF_FRAME, *(("exchange",) if cell.cluster["ranks_count"] > 1 else ())))
+              for cell in cells if cell.cluster and cell.status == "measured"}
     if document.get("stress"):
         found |= {Work(builder, collider, (*STAGES, *OF_BUILDER)) for builder in BUILDERS for collider in COLLIDERS}
     return found
@@ -135,7 +129,7 @@ def faults(document: dict[str, Any]) -> list[str]:
     strange = sorted({commit for commit, _ in made if not is_in_history(commit)})
     found = [f"its commit {commit[:8]} is not in the history" for commit in strange]
     found += ["its program had changes that were in no commit"] if any(dirty for _, dirty in made) else []
-    on_cpu = next(frames(document), document)["run"]["device"]["kind"] == "cpu"
+    on_cpu = document["run"]["device"]["kind"] == "cpu"
     all_places = sorted({place for work in works(document) for place in work.places(on_cpu)})
     commits = sorted({commit for commit, _ in made} - set(strange))
     changed = [place for place in all_places if any(is_changed(place, commit) for commit in commits)]

@@ -22,6 +22,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 from ..files import output
+from ..read import rank_files
 from ..read.cells import Cell
 from ..read.ranking import OF_QUERY
 from ..words import names, tables
@@ -39,7 +40,7 @@ class File:
 
     def __init__(self, name: str) -> None:
         self.document: dict[str, Any] = json.loads(lzma.decompress((ROOT / "results" / f"{name}.json.xz").read_bytes()))
-        self.cells = [Cell(raw) for raw in self.document.get("cells", [])]
+        self.cells = [Cell(raw) for raw in self.document["cells"]]
         self.name = name
 
     def frames(self, scene: str, asked: str) -> list[Cell]:
@@ -55,8 +56,8 @@ class File:
         return self.frames(scene, asked)[0]
 
     def results(self) -> list[dict[str, Any]]:
-        """Returns the results of `bvhbench scale`, one for each number of ranks."""
-        return [run["result"] for run in self.document["runs"]]
+        """Returns the cells of several ranks, in the order of the file."""
+        return rank_files.cells_of(self.document, self.name)
 
 
 def asked_of(cell: Cell) -> str:
@@ -92,9 +93,9 @@ def sah(file: File, scene: str, asked: str) -> float:
     return file.cell(scene, asked).counters["sah_cost"]
 
 
-def frame_ms(document: dict[str, Any]) -> float:
-    """Returns the median time of a frame of `bvhbench cluster` in milliseconds."""
-    return document["frame_ns"] * 1e-6
+def frame_ms(cell: dict[str, Any]) -> float:
+    """Returns the median time of a frame of several ranks in milliseconds."""
+    return cell["frame_ns"] * 1e-6
 
 
 def ends(values: Iterable[float]) -> tuple[float, float]:

@@ -38,6 +38,8 @@ NAMED: dict[str, figure.Draw] = FIGURES | {"stress": stress_map.draw} | {
 
 def pictures_of(run: results.Run) -> figure.Figures:
     """Returns every figure that the file has cells for, by the name of its picture."""
+    if rank_files.is_of_ranks(run.document):
+        return rank_curves.figures_of(run)
     draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run)
     if run.stress:
         draws["stress"] = stress_map.draw
@@ -58,10 +60,6 @@ def held(run: results.Run) -> str:
 def drawn(one: input_files.Given, out: pathlib.Path, inputs: list[pathlib.Path], force: bool, only: str | None) -> None:
     """Draws the figures of one file, or the one named `only`, and prints their paths. Raises results.Refused or output.WrongUsage."""
     path, folder = pathlib.Path(one.path), out / one.below
-    if rank_files.kind_of(path):
-        for picture in style.save(rank_curves.draw(rank_files.read(path)), folder, path.name.split(".")[0], [path, *inputs], force):
-            print(picture)
-        return
     run = results.load(path)
     pictures = figure.named(run, {only: NAMED[only]}) if only else pictures_of(run)
     if not pictures and not one.is_of_folder:

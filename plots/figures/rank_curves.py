@@ -1,8 +1,9 @@
-"""Figures of `bvhbench scale` and `cluster`: speed-up, efficiency and stages over the number of ranks; the share of the halo.
+"""Figures of cells of several ranks: speed-up, efficiency and stages over the number of ranks; the share of the halo.
 
 strong and weak: left the speed-up (of weak: the efficiency) against ranks, with the ideal and the model's curve; right the median
 time of each stage, least, median and most over the ranks. halo: triangles sent, in per cent, by partition and boxes a rank.
 """
+import functools
 import statistics
 from typing import Any
 
@@ -10,8 +11,10 @@ import matplotlib.pyplot as plt
 import numpy
 
 from ..draw import figure, style
+from ..files import json_files
 from ..files.json_files import Refused
-from ..read import rank_files
+from ..read import rank_files, results
+from ..read.cells import grouped
 from ..read.rank_files import measured, stage_times
 
 HALO_BYTES, BOX_BYTES, MESSAGES_S, WAITS, WAIT_S = 40, 24, 5e9, 5, 20e-6  # of the model: docs/cluster.md, cluster/simulate.cpp
@@ -23,7 +26,7 @@ def model_s(one: dict[str, Any], largest: dict[str, Any], ranks: float, is_weak:
     """Returns the frame's time by the model: the work of one rank, waits, and the way of the halo and of all boxes. The halo of a
     rank grows with the square root of its triangles; its size is that of the largest number of ranks measured."""
     share = one["scene"]["triangles"] * (1 if is_weak else 1 / ranks)
-    measured_share = largest["scene"]["triangles"] / largest["count"]
+    measured_share = largest["scene"]["triangles"] / largest["ranks_count"]
     sent = max(rank["halo_sent_count"] for rank in largest["ranks"]) * (share / measured_share) ** 0.5
     alone = one["frame_ns"] / 1e9 * share / one["scene"]["triangles"]
     boxes = (ranks - 1) * largest.get("boxes_count", 64)
@@ -37,13 +40,13 @@ def stages_s(run: dict[str, Any]) -> dict[str, list[float]]:
 
 def draw_curve(axes: plt.Axes, runs: list[dict[str, Any]], is_weak: bool) -> None:
     one, last = runs[0], runs[-1]
-    most = max(8, last["count"])
+    most = max(8, last["ranks_count"])
     ranks = numpy.geomspace(1, most, 50)
     first = one["frame_ns"] / 1e9
     model = numpy.array([first / model_s(one, last, count, is_weak) for count in ranks])
     axes.plot(ranks, numpy.ones_like(ranks) if is_weak else ranks, color="#999999", lw=0.8, label="ideal")
     axes.plot(ranks, model, color="#E69F00", lw=1, ls="--", label="model")
-    axes.plot([run["count"] for run in runs], [one["frame_ns"] / run["frame_ns"] for run in runs], "o-", color="#0072B2", ms=4,
+    axes.plot([run["ranks_count"] for run in runs], [one["frame_ns"] / run["frame_ns"] for run in runs], "o-", color="#0072B2", ms=4,
               label="measured")
     axes.set_xscale("log", base=2)
     axes.set_xticks([count for count in (1, 2, 4, 8, 16, 32, 64) if count <= most])
@@ -71,7 +74,7 @@ def draw_stages(axes: plt.Axes, runs: list[dict[str, Any]]) -> None:
                 axes.bar(at, height, 0.8, bottom, color=COLOURS[stage], label=stage if place == len(runs) - 1 and k == 1 else None)
                 bottom += height
             ticks.append(at)
-            names.append(f"{run['count']}\n{name}" if len(run["ranks"]) > 1 else "1")
+            names.append(f"{run['ranks_count']}\n{name}" if len(run["ranks"]) > 1 else "1")
     axes.set_xticks(ticks, names)
     axes.set_xlabel("ranks")
     axes.set_title("stages over ranks, host's clock, ms", loc="left")
@@ -79,18 +82,17 @@ def draw_stages(axes: plt.Axes, runs: list[dict[str, Any]]) -> None:
     axes.legend(handles[::-1], labels[::-1], frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
 
 
-def draw_halo(document: dict[str, Any]) -> plt.Figure:
+def draw_halo(runs: list[dict[str, Any]]) -> plt.Figure:
     drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH * 0.8, 2.6), layout="constrained")
-    runs = measured(document)
     for partition, colour in (("rcb", "#0072B2"), ("curve", "#D55E00")):
         for boxes, line in ((1, "o--"), (64, "s-")):
             some = [run for run in runs if run["partition"] == partition and run["boxes_count"] == boxes]
             if some:
-                axes.plot([run["count"] for run in some], [100 * run["halo_share"] for run in some], line, color=colour, ms=4, lw=1,
+                axes.plot([run["ranks_count"] for run in some], [100 * run["halo_share"] for run in some], line, color=colour, ms=4, lw=1,
                           label=f"{partition}, {boxes} box{'es' * (boxes > 1)} a rank")
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
-    axes.set_xticks(sorted({run["count"] for run in runs}))
+    axes.set_xticks(sorted({run["ranks_count"] for run in runs}))
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     figure.log_ticks(axes.yaxis, *axes.get_ylim())
     axes.set_xlabel("ranks")
@@ -99,28 +101,37 @@ def draw_halo(document: dict[str, Any]) -> plt.Figure:
     return drawing
 
 
-def draw_one(document: dict[str, Any]) -> plt.Figure:
-    """Draws the stages of a file of `cluster`."""
-    if not stage_times(document):
-        raise Refused("its ranks shared a device, so there are no times")
+def draw_one(cell: dict[str, Any]) -> plt.Figure:
+    """Draws the stages of a cell."""
     drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH * 0.6, 2.8), layout="constrained")
-    draw_stages(axes, [document | {"count": len(document["ranks"])}])
-    drawing.suptitle(f"{document['scene']['name']}, {document['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
+    draw_stages(axes, [cell])
+    drawing.suptitle(f"{cell['scene']['name']}, {cell['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
     return drawing
 
 
-def draw(document: dict[str, Any]) -> plt.Figure:
-    if rank_files.format_of(document) == rank_files.ONE:
-        return draw_one(document)
-    if rank_files.format_of(document) == rank_files.SIMULATED:
-        raise Refused("of simulated ranks, only files of `bvhbench scale halo` have a figure")
-    runs, kind = measured(document), document["experiment"]
+def figures_of(run: results.Run) -> figure.Figures:
+    """Returns the figure of each experiment in a file whose cells are all of several ranks, by the name of its picture."""
+    experiments = grouped(rank_files.cells_of(run.document, str(run.path)), lambda cell: cell["experiment"])
+    name = json_files.name_of(run.path)
+    return {name if len(experiments) == 1 else f"{name}-{kind}": functools.partial(draw, run, kind, cells)
+            for kind, cells in experiments.items()}
+
+
+def draw(run: results.Run, kind: str, cells: list[dict[str, Any]]) -> plt.Figure:
+    """Draws an experiment. Raises Refused if there is no figure of it."""
+    runs = measured(cells)
     if not runs:
-        raise Refused("no cell was measured")
+        raise Refused(f"{run.path}: no cell was measured")
     if kind == "halo":
-        return draw_halo(document)
-    if runs[0]["count"] != 1:
-        raise Refused("there is no cell of one rank to compare with")
+        return draw_halo(runs)
+    if any(one["simulated"] for one in runs):
+        raise Refused(f"{run.path}: of simulated ranks, only files of `bvhbench scale halo` have a figure")
+    if any("frame_ns" not in one for one in runs):
+        raise Refused(f"{run.path}: its ranks shared a device, so there are no times")
+    if kind == "cluster":
+        return draw_one(runs[0])
+    if runs[0]["ranks_count"] != 1:
+        raise Refused(f"{run.path}: there is no cell of one rank to compare with")
     drawing, [[left, right]] = figure.grid(1, 2, 2.8, width_ratios=(1, 1.4))
     draw_curve(left, runs, kind == "weak")
     draw_stages(right, runs)

@@ -133,7 +133,7 @@ def cell_data(cell: Cell, copy_rate: float) -> Data:
         "library": library_of(cell),
         "triangles": cell.scene_facts.get("triangles"),
         "frame": cell.frame, "asked": asked(cell), "state": state, "why": cell.reason or cell.check.get("detail", ""),
-        "n": len(cell.all_samples),
+        "n": len(cell.all_samples), "ranks": cell.cluster,
         "counters": cell.counters, "axis": cell.accuracy.get("axis"), "times": {}}
     if state not in WITHOUT_TIMES:
         times = data["times"] = times_of(cell)
@@ -183,7 +183,7 @@ def bars_of(cells: list[Data]) -> list[Data]:
     """Returns for each builder or pipeline the median time of each stage, averaged over frames, or why there are no times."""
     places = {id(cell): place for place, cell in enumerate(cells)}
     return [{key: group[0][key] for key in (*QUESTION, "who")} | {"cell": places[id(group[0])] if len(group) == 1 else None}
-            | bar_of(group) for group in grouped_by(cells, *QUESTION, "who")]
+            | bar_of(group) for group in grouped_by([cell for cell in cells if not cell["ranks"]], *QUESTION, "who")]
 
 
 def bar_of(group: list[Data]) -> Data:

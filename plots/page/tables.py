@@ -113,6 +113,9 @@ def summary_table(cells: Cells) -> dict[str, Any]:
 
 
 TREE = ["sah_cost", "epo", "sibling_overlap", "depth_max", "nodes_count", "tree_bytes"]
+RANKS = (("ranks", "count", "ranks_count", 1), ("boxes", "count", "boxes_count", 1), ("frame, ms", "number", "frame_ns", 1e-6),
+         ("by the model, ms", "number", "model_ns", 1e-6), ("halo", "share", "halo_share", 1), ("largest part", "number", "imbalance", 1),
+         ("pairs", "count", "pairs_count", 1))
 FOUND = ["pairs_count", "contacts_count", "box_tests_count", "memory_bytes"]
 
 
@@ -137,6 +140,11 @@ def tables_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
     if others:
         tables.append(times_table("Accuracy", others, "method", ["pairs_count", "missed_count", "false_count", "sah_cost"],
                                   "Times beside errors." + TO_SAMPLES))
+    if ranked := [(place, data) for place, data in placed if data["ranks"]]:
+        table = begin("Several ranks", ranked, "pipeline", "Frame: of all ranks, the median of each frame's longest.")
+        for label, kind, key, scale in RANKS:
+            table.add(label, kind, lambda data, key=key, scale=scale: data["ranks"][key] * scale if key in data["ranks"] else None)
+        tables.append(table.data())
     if counters := sorted({name for data in cells for name in data["counters"]}):
         table = begin("All counters", placed, "who")
         table.counters(counters)

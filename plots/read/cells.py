@@ -85,7 +85,7 @@ class Cell:
         self.options = sorted_options(raw["builder"])
         self.collider: str | None = collider.get("name")  # what queried the tree; the builder is "none" if it needs no tree
         self.collider_options = sorted_options(collider)
-        self.operation: str = raw.get("operation", "build")  # build, refit, collide or accuracy (along an axis)
+        self.operation: str = raw.get("operation", "build")  # build, refit, collide, accuracy (along an axis) or cluster
         self.status: str = raw["status"]
         self.reason: str = raw.get("reason", "")  # why the cell was skipped or failed
         self.check: dict[str, Any] = raw.get("check", {})
@@ -93,6 +93,7 @@ class Cell:
         self.left_out: dict[str, str] = raw.get("left_out", {})  # counters without a value, each with the reason
         self.leaves_by_depth: list[int] = raw.get("leaves_by_depth", [])  # by level, from the root
         self.accuracy: dict[str, Any] = raw.get("accuracy", {})  # axis, method and seed; empty for other operations
+        self.cluster: dict[str, Any] = raw.get("cluster", {})  # what was asked of several ranks, and what they found; else empty
         self.outside: dict[str, str] = raw.get("outside", {})  # what a builder or collider from outside says of itself; else empty
         if self.outside:
             names.OUTSIDE[self.outside["name"]] = None
@@ -215,6 +216,8 @@ class Cell:
         if self.operation == "accuracy":
             return f"{self.accuracy['axis']}, {self.accuracy['method']}"
         builder = names.in_full(self.raw["builder"])
+        if self.operation == "cluster":
+            return f"{name or ''} over {builder}, {', '.join(f'{key} {value}' for key, value in of_ranks(self.cluster).items())}"
         caches = f", {names.CACHES[self.caches]}" if self.caches in names.CACHES else ""
         if self.operation == "collide":
             swept = f"{self.swept['pairs']} by " if self.swept else ""
@@ -247,11 +250,20 @@ def choice(raw: dict[str, Any], without: str = "") -> tuple[str, tuple[tuple[str
     return raw["name"], tuple((key, value) for key, value in sorted_options(raw) if value != names.USUAL.get(key) and key != without)
 
 
+def of_ranks(cluster: dict[str, Any]) -> dict[str, Any]:
+    """Returns what was asked of several ranks; without what has its default."""
+    asked = {"ranks": cluster.get("ranks_count"), "partition": cluster.get("partition"), "boxes": cluster.get("boxes_count", 64),
+             "simulated": cluster.get("simulated"), "shared devices": cluster.get("shares_devices"), "frames": cluster.get("asked_frames"),
+             "rebalance": cluster.get("rebalance")}
+    return {key: value for key, value in asked.items() if value}
+
+
 def parts(raw: dict[str, Any], without: str = "") -> dict[str, Any]:
     """Returns everything that identifies a cell, independent of its outcome. All options count, including those unknown to this
     reader. An option missing from a file of an older format has its default."""
     scene = raw["scene"] if isinstance(raw["scene"], dict) else {"name": raw["scene"]}
     told = {name: raw[name] for name in ("experiment", "accuracy", "family", "system") if name in raw}
+    told |= {"cluster": of_ranks(raw["cluster"])} if "cluster" in raw else {}
     told |= {part: choice(raw[part], without) for part in ("builder", "collider") if part in raw}
     told |= {name: scene.get(name, usual) for name, usual in OF_SCENE.items()}
     swept, sampling = raw.get("swept", {}), raw.get("sampling", {})

@@ -127,6 +127,8 @@ def joined(parts: list[Part]) -> tuple[list[Json], int]:
     WrongUsage if a part lacks a cell, is of several runs itself, or found something else."""
     keyed_parts = [dict(keyed(part, "cells")) for part in parts]
     for part, cells_of_part in zip(parts, keyed_parts, strict=True):
+        if any("cluster" in cell for cell in cells_of_part.values()):
+            raise WrongUsage(f"{part.origin} has cells of several ranks, whose samples are not joined")
         if len(part.runs) > 1 or part.document.get("stress"):
             raise WrongUsage(f"{part.origin} is not what one process of `run`, `build` or `collide` wrote")
         for key in keyed_parts[0].keys() ^ cells_of_part.keys():

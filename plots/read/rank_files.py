@@ -1,70 +1,67 @@
-"""Files of `bvhbench cluster`, of its --simulate, and of `bvhbench scale`: which a file is, and reading it."""
-import lzma
-import os
-import pathlib
+"""Cells of several ranks, which `bvhbench cluster`, its --simulate and `bvhbench scale` measure."""
 import statistics
 from typing import Any
 
 from ..files import documents
-from ..files.json_files import Refused, parsed
+from ..files.json_files import Refused
 
-ONE, SIMULATED, RUNS = "cluster-1", "cluster-simulation-1", "cluster-runs-1"  # formats, without their minor version
-# Keys of a result, and of a file of `scale`.
-RESULT, RUNS_KEYS = ("format", "run", "scene", "partition", "builder", "ranks"), ("format", "experiment", "command", "runs")
-USUAL_BOXES = 64  # that each rank tells the others, in files that do not say
-
-
-def kind_of(path: str | os.PathLike[str]) -> str:
-    """Returns ONE, SIMULATED or RUNS; empty for any other file. Reads the beginning alone, where such a file has its format."""
-    file = pathlib.Path(path)
-    if not file.is_file():  # what is no regular file, a pipe for one, can be read only once
-        return ""
-    try:
-        with lzma.open(file) if file.suffix == ".xz" else file.open("rb") as beginning:
-            text = beginning.read(100)
-    except (OSError, EOFError, lzma.LZMAError):
-        return ""
-    return next((kind for kind in (ONE, SIMULATED, RUNS) if f'"{kind}.'.encode() in text), "")
+Json = dict[str, Any]
+OPERATION = "cluster"
+USUAL_BOXES = 64  # that each rank tells the others, in cells that do not say
+ASKED, FOUND = ("ranks_count", "simulated", "partition"), ("halo_share", "imbalance", "ranks")  # keys of each; of each that was measured
 
 
-def format_of(document: dict[str, Any]) -> str:
-    return document["format"].split(".")[0]
+def is_of_ranks(document: Json) -> bool:
+    """True if all cells of a result file are of several ranks."""
+    return all(cell.get("operation") == OPERATION for cell in document["cells"]) and bool(document["cells"])
 
 
-def read(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Reads a file that kind_of knows, and checks the keys of the results in it. Raises Refused."""
-    document, kind = parsed(pathlib.Path(path)), kind_of(path)
-    try:
-        documents.require(document, RUNS_KEYS if kind == RUNS else RESULT)
-        for result in [run["result"] for run in document["runs"] if "result" in run] if kind == RUNS else [document]:
-            documents.require(result, RESULT, "result")
-            documents.require(result["run"], documents.RUN, "run")
-            require_even(result)
-    except (LookupError, TypeError, ValueError) as error:
-        raise Refused(f"{path}: not a file of `bvhbench cluster`: {error}") from error
-    return document
+def cells_of(document: Json, origin: str) -> list[Json]:
+    """Returns the cells of several ranks of a result file, each with what it says of its ranks among its other keys. Raises Refused."""
+    found = []
+    for place, cell in enumerate(document["cells"]):
+        if cell.get("operation") != OPERATION:
+            continue
+        where = f"cells[{place}].cluster"
+        try:
+            is_measured = cell["status"] == "measured"
+            documents.require(cell.get("cluster"), ASKED + FOUND * is_measured, where)
+            require_even(cell["cluster"])
+        except (LookupError, TypeError, ValueError) as error:
+            raise Refused(f"{origin} is no result file: {error}") from error
+        found.append(cell | cell["cluster"])
+    return found
 
 
-def require_even(result: dict[str, Any]) -> None:
+def require_even(cluster: Json) -> None:
     """Raises ValueError unless all ranks have as many samples, and these the same stages."""
     each = [[[stage["stage"] for stage in sample["stages"]] for sample in rank.get("samples", [])]
-            for rank in result.get("ranks", [])]
+            for rank in cluster.get("ranks", [])]
     if any(len(samples) != len(each[0]) for samples in each):
         raise ValueError("it has ranks with different numbers of samples")
     if any(stages != each[0][0] for samples in each for stages in samples):
         raise ValueError("it has samples with different stages")
 
 
-def measured(document: dict[str, Any]) -> list[dict[str, Any]]:
-    """Returns the results of measured cells of a file of `scale`, with their number of ranks, ascending."""
-    runs = [run["result"] | {"count": run["ranks"]} for run in document["runs"] if run["status"] == "measured"]
-    return sorted(runs, key=lambda run: run["count"])
+def measured(cells: list[Json]) -> list[Json]:
+    """Returns the measured cells, by their number of ranks, ascending."""
+    return sorted((cell for cell in cells if cell["status"] == "measured"), key=lambda cell: cell["ranks_count"])
 
 
-def stage_times(run: dict[str, Any], clock: str = "host_ns") -> dict[str, list[float]]:
+def asked_of(cell: Json) -> dict[str, Any]:
+    """Returns what was asked for, but for the scene."""
+    builder, collider = (cell.get(part, {}) for part in ("builder", "collider"))
+    options = collider.get("options", {})
+    return {"ranks": cell["ranks_count"], "partition": cell["partition"], "builder": builder.get("name"),
+            "order": builder.get("options", {}).get("order"), "collider": collider.get("name"), "adjacent": options.get("adjacent"),
+            "narrow": options.get("narrow", "none"), "boxes": cell.get("boxes_count", USUAL_BOXES), "frames": len(cell.get("frames", [])),
+            "devices": "shared" if cell.get("shares_devices") else "one a rank"}
+
+
+def stage_times(cell: Json, clock: str = "host_ns") -> dict[str, list[float]]:
     """Returns the median time of each stage on each rank, in nanoseconds; empty if ranks shared a device."""
     times: dict[str, list[float]] = {}
-    for rank in run["ranks"]:
+    for rank in cell["ranks"]:
         for k, stage in enumerate(rank["samples"][0]["stages"] if rank["samples"] else []):
             times.setdefault(stage["stage"], []).append(statistics.median(sample["stages"][k][clock] for sample in rank["samples"]))
     return times

@@ -56,7 +56,7 @@ def quotes(doc: Document) -> None:
     ratios = [theirs[scene] / ours[scene] for scene in ours]
     doc.says("take at best {} to {} times as long as `block`", min(ratios), max(ratios))
 
-    most, strong = ([run["result"] for run in File(f"h200/cluster-{name}").document["runs"]] for name in ("most", "strong"))
+    most, strong = (File(f"h200/cluster-{name}").results() for name in ("most", "strong"))
     doc.says("four H200 find the {} pairs of a torus of 2,147,483,648 triangles in {} ms", most[0]["pairs_count"], frame_ms(most[0]))
     doc.says("those of 67,108,864 triangles {} times as fast as one", frame_ms(strong[0]) / frame_ms(strong[2]))
 

@@ -13,20 +13,22 @@ import sys
 import time
 import uuid
 
-from program import ALL_CASES, PATIENCE_S, PROGRAM, SCHEMA, SOURCE, copied_kernels, expect, jsonschema, main, run, wait_until
+from program import ALL_CASES, PATIENCE_S, PROGRAM, SOURCE, at_work, copied_kernels, expect, main, run, valid, wait_until
 
 SHARED = ("--share-devices", "--force")
 UNNAMED = ", and so were the others; mpirun does not say which\n"  # of a rank that is lost while it starts
 STAGES = ("partition", "build", "boxes", "select", "exchange", "self", "halo", "narrow", "gathering", "verdict")
 
 
+def results(path: str) -> list[dict]:
+    """Returns the cells of a result file, each with what it says of its ranks among its other keys."""
+    return [cell | cell["cluster"] for cell in valid(path)["cells"]]
+
+
 def result(path: str) -> dict:
-    """Returns a result file, after checking it, and all results in it, against the schemas of their formats."""
-    document = json.loads(pathlib.Path(path).read_text())
-    for one in [document, *(run["result"] for run in document.get("runs", []) if "result" in run)] if jsonschema else []:
-        schema = SCHEMA.parent / f"{one['format'].split('.')[0]}.schema.json"
-        jsonschema.Draft202012Validator(json.loads(schema.read_text())).validate(one)
-    return document
+    """Returns the only cell."""
+    cell, = results(path)
+    return cell
 
 
 def processes_of(mark: str) -> list[tuple[int, str]]:
@@ -211,14 +213,14 @@ def test_experiments_write_one_file():
     tool.chmod(0o755)
     expect(0, "scale", "strong", "--scene", "torus:2000", "--ranks", "1,2", "--samples", "2", "--out", "strong.json",
            PATH=f"{tool.parent.resolve()}:{os.environ['PATH']}")
-    assert result("strong.json")["topology"] == "GPU0 NV18"
-    runs = result("strong.json")["runs"]  # of two ranks, one has no device
-    assert [(one["ranks"], one["status"]) for one in runs] == [(1, "measured"), (2, "failed")], runs
+    facts = valid("strong.json")["run"]
+    assert facts["topology"] == "GPU0 NV18" and facts["libraries"]["MPI"], facts
+    runs = results("strong.json")  # of two ranks, one has no device
+    assert [(one["ranks_count"], one["status"]) for one in runs] == [(1, "measured"), (2, "failed")], runs
     assert "2 ranks on " in runs[1]["reason"] and "need a device each, and one matches" in runs[1]["reason"], runs[1]
-    assert runs[0]["result"]["frame_ns"] > 0 and runs[0]["result"]["scene"]["triangles"] >= 2000
+    assert runs[0]["frame_ns"] > 0 and runs[0]["scene"]["triangles"] >= 2000
     expect(0, "scale", "halo", "--quick", "--ranks", "2", "--builder", "karras", "--out", "halo.json")
-    runs = result("halo.json")["runs"]
-    shares = {(one["partition"], one["result"]["boxes_count"]): one["result"]["halo_share"] for one in runs}
+    shares = {(one["partition"], one["boxes_count"]): one["halo_share"] for one in results("halo.json")}
     assert set(shares) == {("rcb", 1), ("rcb", 64), ("curve", 1), ("curve", 64)} and min(shares.values()) > 0, shares
     assert "need a device each" in expect(0, "show", "strong.json", says="times one rank") and "curve" in expect(0, "show", "halo.json")
     expect(0, "cluster", "torus:2000", "--ranks", "1", "--samples", "10", "--json", "plain.json", "--force")
@@ -226,15 +228,61 @@ def test_experiments_write_one_file():
     expect(0, "cluster", "torus:2000", "--ranks", "2", *SHARED, "--samples", "1", "--partition", "curve", "--json", "two.json")
     difference = expect(0, "compare", "plain.json", "two.json", "--allow-dirty", says="changed ranks 2, was 1")  # the pairs are the same
     assert "no regression\n" in difference and "changed partition curve, was rcb\n" in difference, difference
-    expect(2, "compare", "plain.json", "halo.json", "--allow-dirty", says="plain.json has format cluster-1.0 and halo.json cluster-runs-1.1")
+    expect(2, "compare", "plain.json", "halo.json", "--allow-dirty", says="plain.json and halo.json have no cell in common")
     expect(2, "compare", "plain.json", str(SOURCE / "results" / "h200" / "table1.json.xz"), says="is no file of `bvhbench cluster` or `scale`")
     expect(0, "plot", "strong.json", "halo.json", "plain.json", "--out", "figures")
     assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo", "plain"))
     expect(3, "plot", "two.json", "--out", "figures", says="its ranks shared a device, so there are no times")
     expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "never.json", says="weak needs a generator's name")
     expect(2, "scale", "weak", "--scene", "nothing", "--out", "never.json", says="no scene is called 'nothing:33554432'")
-    expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="is there already")
+    expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="4 of 4 parts that are none of this plan")
     expect(2, "scale", "halo", "--ranks", "2,x", "--out", "never.json", says="--ranks is a list of rank counts")
+
+
+def test_scale_goes_on_where_it_was_interrupted():
+    words = ("scale", "halo", "--scene", "torus:20000", "--ranks", "2,3,4", "--partition", "rcb", "--samples", "2", "--out", "on.json")
+    with at_work(*words) as process:
+        for line in process.stdout:
+            if line.startswith("[2/6]"):
+                break
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 130
+    assert "finished_at" not in valid("on.json")["run"]
+    kept = valid("on.json")["cells"]
+    assert 2 <= len(kept) < 6, kept
+    done = expect(0, *words, says="[6/6] torus:20000, 4 ranks, rcb, 64 boxes a rank: not_checked")
+    assert done.count("\n[") + 1 == 6 - len(kept), done
+    whole = valid("on.json")["cells"]
+    assert [{key: value for key, value in cell.items() if key != "run"} for cell in whole][:len(kept)] == kept and len(whole) == 6
+    assert len({cell["run"] for cell in whole}) == 2
+    assert "[" not in expect(0, *words, says="written: on.json")
+
+
+def test_shares_of_a_plan_are_the_whole():
+    asked = {"scene": "torus:2000", "samples": 1}
+    entries = [{"ranks": 2, "share_devices": True}, {"simulate": 2, "boxes": 1}, {"ranks": 2}, {"simulate": 3, "partition": "curve"},
+               {"ranks": 3, "share_devices": True, "builder": "karras", "narrow": "exact", "adjacent": "drop"}]
+    pathlib.Path("mine.json").write_text(json.dumps({"experiment": "mine", "clusters": [asked | entry for entry in entries]}))
+    expect(0, "run", "mine.json", "--out", "whole.json", "--quiet")
+    for share in ("1", "2"):
+        expect(0, "run", "mine.json", "--out", f"share-{share}.json", "--only", f"{share}/2", "--quiet")
+    expect(0, "merge", "share-1.json", "share-2.json", "-o", "merged.json", says="5 cells of 2 runs")
+
+    def told(path: str) -> dict[str, dict]:
+        """Returns the cells without times, memory, and which rank said why it failed, by their parts."""
+        return {cell["part"]: {key: value for key, value in cell.items() if key not in ("run", "reason", "cluster")} | {
+            key: value for key, value in cell["cluster"].items() if not key.endswith("_ns") and key != "ranks"} | {
+            "ranks": [{key: rank[key] for key in ("triangles", "halo_sent_count")} for rank in cell["cluster"].get("ranks", [])]}
+            for cell in valid(path)["cells"]}
+
+    whole = told("whole.json")
+    assert whole == told("merged.json") and len(whole) == 5
+    assert [cell["status"] for cell in whole.values()] == ["measured", "measured", "failed", "measured", "measured"]
+    for path in "whole.json", "merged.json":
+        assert "need a device each, and one matches" in next(cell for cell in results(path) if cell["status"] == "failed")["reason"]
+    expect(0, "run", "mine.json", "--out", "filtered.json", "--filter", "karras", "--quiet")
+    assert [cell["ranks_count"] for cell in results("filtered.json")] == [3]
 
 
 def test_what_is_simulated_is_what_ranks_send():
@@ -253,7 +301,7 @@ def test_what_is_simulated_is_what_ranks_send():
     alone = result("one.json")
     assert alone["model_ns"] == alone["part_ns"] > 0 == alone["halo_share"], alone
     expect(2, "cluster", "torus:2000", "--simulate", "2", "--ranks", "2", says="--simulate runs no ranks")
-    expect(2, "cluster", "torus:2000", "--ranks", "2", "--boxes", "63", says="--boxes is a power of two")
+    expect(2, "cluster", "torus:2000", "--ranks", "2", "--boxes", "63", says="boxes is a power of two, not 63")
     expect(2, "cluster", "torus:2000", "--ranks", "2", *SHARED, "--boxes", "32", "--builder", "oibvh-wide8", "--collider", "group",
            says="no level of trees with 8 children a node has 32 nodes")
 

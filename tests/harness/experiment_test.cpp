@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "collide/skips.h"
 #include "geometry/error.h"
 #include "tests/harness/fakes.h"
@@ -286,6 +288,51 @@ TEST(Experiment, RefusesWhatMakesNoSense)
     EXPECT_EQ(refusal(with(R"("a")", R"(["b"])", one)), "") << "these would all be refused";
     for (const std::string& text : texts)
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
+}
+
+TEST(Experiment, HasScenesOnSeveralRanks)
+{
+    const auto of = [](const std::string& entries) {
+        return R"({"experiment": "a", "clusters": [)" + entries + "]}";
+    };
+    const Experiment experiment = read(of(
+        R"({"scene": "torus:9", "ranks": 2, "order": "hilbert30", "narrow": "exact",
+            "adjacent": "drop", "frames": "0:6", "samples": 3, "share_devices": true},
+           {"scene": "torus:9", "simulate": 8, "partition": "curve", "boxes": 16})"));
+    const ClusterTask& first = experiment.clusters.at(0);
+    EXPECT_EQ(first.pipeline.builder.order, "hilbert30");
+    EXPECT_EQ(first.pipeline.collider.narrow, "exact");
+    EXPECT_TRUE(first.share_devices && !first.pipeline.collider.keep_adjacent);
+    EXPECT_EQ(first.frames, (FrameRange{0, 6}));
+    EXPECT_EQ(first.words,
+              (std::vector<std::string>{"cluster", "torus:9", "--ranks", "2", "--order",
+                                        "hilbert30", "--narrow", "exact", "--adjacent", "drop",
+                                        "--frames", "0:6", "--share-devices"}));
+    const ClusterTask& second = experiment.clusters.at(1);
+    EXPECT_EQ((std::vector{first.ranks, first.simulates, second.ranks, second.simulates}),
+              (std::vector{2u, 0u, 0u, 8u}));
+    EXPECT_EQ(second.partition, PartitionBy::curve);
+    EXPECT_EQ((std::vector{first.boxes, second.boxes}), (std::vector{usual_top_boxes, 16u}));
+    EXPECT_EQ(experiment.clusters.at(0).samples, 3);
+    for (const auto& [entry, reason] : std::map<std::string, std::string>{
+             {R"("scene": "torus:9")", "an entry of 'clusters' must have the key 'ranks'"},
+             {R"("ranks": 2)", "an entry of 'clusters' must have the key 'scene'"},
+             {R"("scene": "torus:9", "ranks": 2, "simulate": 2)", "'simulate' runs no 'ranks'"},
+             {R"("scene": "torus:9", "ranks": 5000)",
+              "ranks must be a whole number from 1 to 4096"},
+             {R"("scene": "torus:9", "ranks": 2, "boxes": 63)",
+              "the number of boxes is a power of two, not 63"},
+             {R"("scene": "torus:9", "ranks": 2, "partition": "x")", "no partition is called 'x'"},
+             {R"("scene": "torus:9", "ranks": 2, "leaves": "mesh")", "'leaves' is no key of an"},
+             {R"("scene": "no-such", "ranks": 2)", "no scene is called 'no-such'"}})
+        EXPECT_NE(refusal(of("{" + entry + "}")).find("x.json: " + reason), std::string::npos)
+            << refusal(of("{" + entry + "}"));
+    for (const char* key : {"scenes", "quick"})
+        EXPECT_NE(
+            refusal(R"({"experiment": "a", "clusters": [{"scene": "torus:9", "ranks": 2}], ")" +
+                    std::string(key) + "\": []}")
+                .find("is no key of an experiment with 'clusters'"),
+            std::string::npos);
 }
 
 TEST(Experiment, HasScenesOfAllSizesThatItSaysInOrder)

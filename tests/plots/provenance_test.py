@@ -68,7 +68,9 @@ class Kernels(InFolder):
 
     def test_of_one_rank_are_not_those_of_an_exchange(self) -> None:
         for ranks, place in ((1, "cluster/top_boxes"), (2, "cluster/")):
-            work, = provenance.works({"ranks": [{}] * ranks, "builder": {"name": "oibvh-multi"}})
+            cell = {"experiment": "cluster", "scene": {"name": "torus:9"}, "builder": {"name": "oibvh-multi"}, "operation": "cluster",
+                    "status": "measured", "cluster": {"ranks_count": ranks}}
+            work, = provenance.works({"cells": [cell]})
             self.assertIn(place, work.places(False))
             self.assertEqual("cluster/" in work.places(False), ranks > 1)
 

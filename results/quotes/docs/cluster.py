@@ -23,7 +23,7 @@ def scaling(doc: Document) -> None:
 
 
 def tables(doc: Document) -> None:
-    files = {"660,000,000": [File("h200/cluster-largest").document],
+    files = {"660,000,000": File("h200/cluster-largest").results(),
              "1,000,000,000": File("h200/cluster-billion").results(), "2,147,483,648": File("h200/cluster-most").results()}
     doc.table("largest", "triangles | H200 | frame, ms | pairs | device, GB | predicted | host, GB | moving, s", (
         [triangles, len(run["ranks"]), frame_ms(run), run["pairs_count"],
@@ -32,7 +32,7 @@ def tables(doc: Document) -> None:
     doc.table("cubes", "< scene | boxes a rank | 1 rank | 2 ranks | pairs of 2 ranks", (
         [f"{scene}-cube", boxes, *map(frame_ms, both), both[1]["pairs_count"]]
         for scene in ("filled", "hollow") for size, boxes in {"": 50000, "-large": 9300000}.items()
-        for both in [[File(f"h200/cluster-{scene}{size}-{ranks}").document for ranks in (1, 2)]]))
+        for both in [[File(f"h200/cluster-{scene}{size}-{ranks}").results()[0] for ranks in (1, 2)]]))
 
 
 def quotes(doc: Document) -> None:

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/cluster_by_ranks.h"
+
+#include <re2/re2.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "cluster/mpi_ranks.h"
+#include "geometry/error.h"
+#include "harness/base/failure.h"
+#include "process/child.h"
+#include "process/interrupt.h"
+#include "process/mpirun.h"
+
+namespace bvhbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for the file that ranks write, removed with all that is in it, also by a signal.
+class FolderOfRanks {
+public:
+    FolderOfRanks()
+    {
+        std::string name = (fs::temp_directory_path() / "bvhbench-ranks-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Unavailable("no folder can be made for the file of the ranks: " + name);
+        path = name;
+    }
+    ~FolderOfRanks() { remove(); }
+    FolderOfRanks(const FolderOfRanks&) = delete;
+    FolderOfRanks& operator=(const FolderOfRanks&) = delete;
+
+    fs::path path;
+
+private:
+    void remove() const
+    {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+
+    AtSignal removed_{[this] { remove(); }};
+};
+
+/// Returns how NVIDIA's devices are linked, as nvidia-smi prints it; empty where it cannot tell.
+std::string topology()
+{
+    constexpr double limit_s = 60;
+    ProcessEnd end{.code = 1};
+    reason_of_failure([&] {
+        end = run_process({"nvidia-smi", "topo", "-m"}, limit_s, "LC_ALL=C");
+    });
+    if (end.how != ProcessEnd::How::exited || end.code != 0)
+        return {};
+    RE2::GlobalReplace(&end.output, "\x1b\\[[\\d;]*m|\\s+$", "");
+    return end.output;
+}
+
+}  // namespace
+
+Json cell_by_ranks(const ClusterTask& task, const CommonOptions& common)
+{
+    if (const std::string why = mpi_absent(); !why.empty())
+        throw Unavailable(why);
+    const FolderOfRanks folder;
+    const fs::path file = folder.path / "cell.json";
+    std::vector<std::string> words = task.words;
+    words.insert(words.end(), common.given.begin(), common.given.end());
+    words.insert(words.end(),
+                 {"--samples", std::to_string(task.samples), "--json", file, "--quiet"});
+    const RanksEnd end = run_ranks(task.ranks, words, 0, common.time_limit_s);
+    if (!fs::exists(file)) {
+        const std::string why = !end.sentence.empty()
+                                    ? end.sentence
+                                    : "ranks ended with exit code " + std::to_string(end.code);
+        if (end.code == 2)
+            throw BadUsage(why);
+        throw Unavailable(why);
+    }
+    Json cell = Json::parse(file_text(file, "the file of the ranks"))["cells"][0];
+    cell["experiment"] = task.experiment;
+    return cell;
+}
+
+Json with_cluster_facts(Json run)
+{
+    if (const std::string mpi = mpi_version(); !mpi.empty())
+        run["libraries"]["MPI"] = mpi;
+    if (const std::string links = topology(); !links.empty())
+        run["topology"] = links;
+    return run;
+}
+
+}  // namespace bvhbench
