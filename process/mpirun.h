@@ -19,7 +19,7 @@ struct RanksEnd {
 };
 
 /// Runs this program with `words` on this host as `ranks` ranks, with mpirun's settings for root, containers and more ranks than
-/// cores. Rank 0 prints, `columns` wide. A rank that ends with an error is to print a sentence, which is returned and not printed.
+/// cores. `columns` is the width of rank 0's terminal. A rank that ends with an error is to print a sentence, which is returned.
 ///
 /// If this process ends, so do the ranks. If mpirun hangs (process/mpirun_watch.h), it is killed, and so is all that it
 /// started. Throws Unavailable if mpirun is missing, fails or does not start all ranks, NothingMeasured if a signal ended a rank or

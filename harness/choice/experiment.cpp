@@ -93,10 +93,9 @@ Experiment experiment_of(const Json& json, bool quick)
     if (has_ranks)
         refuse_unknown_keys(json, {"experiment", "question", "paper", "label", "clusters"},
                             "an experiment with 'clusters'");
-    for (const char* key : {"experiment", has_ranks ? "clusters" : "scenes",
-                            has_ranks  ? "clusters"
-                            : collides ? "pipelines"
-                                       : "builders"})
+    const std::vector<const char*> required = {"experiment", "scenes",
+                                               collides ? "pipelines" : "builders"};
+    for (const char* key : std::span(required).first(has_ranks ? 1 : required.size()))
         if (!json.contains(key))
             throw BadUsage("an experiment must have the key '" + std::string(key) + "'");
     Experiment experiment;

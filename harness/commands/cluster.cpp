@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/cluster_by_ranks.h"
+#include "harness/measure/cluster.h"
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
+#include <utility>
 
 #include "geometry/error.h"
 #include "geometry/names.h"
 #include "harness/base/failure.h"
+#include "harness/base/python.h"
 #include "harness/base/terminal.h"
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
@@ -29,11 +32,11 @@ public:
         app.add_option("--ranks", task_.ranks, "processes, each with a device of its own")
             ->check(CLI::Range(1u, ClusterTask::most_ranks));
         app.add_option("--partition", partition_, joined(partition_names))->capture_default_str();
-        app.add_option("--builder", task_.pipeline.builder.name, "a name of `list builders`")
+        app.add_option("--builder", choice_.builder.name, "a name of `list builders`")
             ->capture_default_str();
-        app.add_option("--order", task_.pipeline.builder.order, "a name of `list orders`")
+        app.add_option("--order", choice_.builder.order, "a name of `list orders`")
             ->capture_default_str();
-        app.add_option("--collider", task_.pipeline.collider.name, "a name of `list colliders`")
+        app.add_option("--collider", choice_.collider.name, "a name of `list colliders`")
             ->capture_default_str();
         add_choices(app, choice_, [](const Choice& option) {
             return option.key == "adjacent" || option.key == "narrow";
@@ -93,11 +96,11 @@ private:
     {
         if (const std::string why = mpi_absent(); !why.empty())
             throw Unavailable(why);
-        constexpr std::size_t no_terminal = 10000;  // columns: tables are not wrapped
         const std::size_t width = terminal_width(STDOUT_FILENO);
-        const RanksEnd end =
-            run_ranks(task_.ranks, {invocation.words.begin() + 1, invocation.words.end()},
-                      width == 0 ? no_terminal : width, invocation.common.time_limit_s);
+        std::vector<std::string> words(invocation.words.begin() + 1, invocation.words.end());
+        if (width == 0)  // no terminal, but mpirun gives rank 0 one
+            words.emplace_back("--wide");
+        const RanksEnd end = run_ranks(task_.ranks, words, width, invocation.common.time_limit_s);
         if (!end.sentence.empty())
             std::cerr << "bvhbench: " << end.sentence << '\n';
         return end.code;
@@ -108,8 +111,7 @@ private:
     {
         task_.partition = partition_called(partition_);
         task_.check = cluster_check_called(check_);
-        task_.pipeline.collider.keep_adjacent = choice_.collider.keep_adjacent;
-        task_.pipeline.collider.narrow = choice_.collider.narrow;
+        task_.pipeline = {choice_.builder, choice_.collider};
         task_.wants_pairs = !pairs_.empty();
         if (task_.wants_pairs)
             check_pairs_path(pairs_, {});
@@ -143,21 +145,21 @@ private:
         const OutputRules rules =
             result_rules(invocation.common.force, scene_files(task_.scene, session.scenes()));
         ResultFile results(Output(json_, "--json", rules), invocation.common.force, Resuming{}, {});
-        const Simulation simulation = simulate_cluster(session, task_);
-        keep(results, cell_of(simulation), session, invocation);
-        if (!invocation.common.quiet)
-            std::cout << simulation_text(simulation);
-        return results.exit_code();
+        Json facts = run_facts(session.device(), invocation.words);
+        const Cell cell = cell_of(simulate_cluster(session, task_));
+        return finish(results, std::move(facts), cell, session, invocation);
     }
 
-    /// Writes the result file, which is not begun before: a killed rank leaves nothing.
-    static void keep(ResultFile& results, const Cell& cell, Session& session,
-                     const Invocation& invocation)
+    /// Writes the result file, which is not begun before, so that a killed rank leaves nothing, and prints it. Returns the exit code.
+    static int finish(ResultFile& results, Json facts, const Cell& cell, const Session& session,
+                      const Invocation& invocation)
     {
-        results.begin(with_cluster_facts(run_facts(session.device(), invocation.words)));
+        results.begin(with_cluster_facts(std::move(facts)));
         results.begin_part({});
         results.add(cell);
         results.finish(session.end_of_run());
+        print_tables(results.text(), invocation.common);
+        return results.exit_code();
     }
 
     int run_rank(HostedRanks& ranks, const Invocation& invocation)
@@ -174,6 +176,7 @@ private:
         const Output contacts = is_first ? Output(contacts_, "--contacts", rules) : Output();
         PairsFile pairs_file(pairs, false), contacts_file(contacts, false);
         session.check_clocks();
+        Json facts = run_facts(session.device(), invocation.words);
         const ClusterFound found = run_cluster(ranks, session, task_);
         if (!is_first)
             return 0;
@@ -181,15 +184,12 @@ private:
         pairs_file.finish();
         contacts_file.add(found.contacts, 0, found.scene);
         contacts_file.finish();
-        keep(results, cell_of(found.result), session, invocation);
-        if (!common.quiet)
-            std::cout << cluster_table(found.result,
-                                       common.wide ? 0 : terminal_width(STDOUT_FILENO));
-        return results.exit_code();
+        setenv("NO_COLOR", "1", 1);  // the terminal of rank 0 may end in a file
+        return finish(results, std::move(facts), cell_of(found.result), session, invocation);
     }
 
     ClusterTask task_;
-    CellChoice choice_;
+    CellChoice choice_{task_.pipeline.builder, task_.pipeline.collider};
     std::string partition_ = "rcb", check_ = "auto";
     std::string json_, pairs_, contacts_, frames_;
 };

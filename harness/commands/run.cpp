@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/run.h"
-#include "harness/measure/cluster_by_ranks.h"
 
 #include <algorithm>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "harness/base/python.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
+#include "harness/measure/cluster.h"
 #include "harness/record/provenance.h"
 #include "process/watchdog.h"
 

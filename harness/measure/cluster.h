@@ -3,8 +3,8 @@
 
 #include "cluster/mpi_ranks.h"
 #include "collide/pairs.h"
+#include "harness/base/common_options.h"
 #include "harness/record/cluster_result.h"
-#include "harness/record/simulation.h"
 #include "harness/session/session.h"
 
 namespace bvhbench {
@@ -28,5 +28,12 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
 
 /// Counts what each of `task.simulates` ranks would send and receive, without running them, and times the largest part on this device.
 Simulation simulate_cluster(Session& session, const ClusterTask& task);
+
+/// Starts `task.ranks` processes of `cluster` by mpirun and returns the cell that they write. Throws BadUsage, Unavailable or
+/// NothingMeasured with what a rank said if they write none.
+Json cell_by_ranks(const ClusterTask& task, const CommonOptions& common);
+
+/// Returns the facts of a run, with what ranks talk through: the MPI library, and the links of NVIDIA's devices.
+Json with_cluster_facts(Json run);
 
 }  // namespace bvhbench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/cluster_by_ranks.h"
+#include "harness/measure/cluster.h"
 
 #include <re2/re2.h>
 

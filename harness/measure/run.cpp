@@ -14,7 +14,7 @@
 #include "harness/base/test_hooks.h"
 #include "harness/judge/check.h"
 #include "harness/judge/metrics.h"
-#include "harness/measure/cluster_by_ranks.h"
+#include "harness/measure/cluster.h"
 #include "harness/measure/collide.h"
 #include "harness/measure/contest.h"
 #include "harness/measure/engine.h"
@@ -233,22 +233,20 @@ void Run::cluster(const ClusterTask& task)
 {
     if (results_.pass(1))
         return;
-    Cell cell = planned_cell(task);
     bool cannot_be = false;
-    cell.reason = reason_of_failure(
-        [&] {
-            if (task.simulates != 0)
-                cell = cell_of(simulate_cluster(session_, task));
-            else
-                results_.add(cell_by_ranks(task, common_));
-        },
-        &cannot_be);
-    if (!cell.reason.empty()) {
-        session_.renew_queue();
-        cell.status = cannot_be ? Cell::Status::skipped : Cell::Status::failed;
-    }
-    if (task.simulates != 0 || !cell.reason.empty())
-        results_.add(cell);
+    const auto measure = [&] {
+        if (task.simulates != 0)
+            results_.add(cell_of(simulate_cluster(session_, task)));
+        else
+            results_.add(cell_by_ranks(task, common_));
+    };
+    Cell failed = planned_cell(task);
+    failed.reason = reason_of_failure(measure, &cannot_be);
+    if (failed.reason.empty())
+        return;
+    session_.renew_queue();
+    failed.status = cannot_be ? Cell::Status::skipped : Cell::Status::failed;
+    results_.add(failed);
 }
 
 void Run::scene(const Experiment& experiment, const std::string& name,

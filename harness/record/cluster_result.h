@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What `bvhbench cluster` found and measured, as a table and as a cell of a result file.
+// What `bvhbench cluster` found and measured, and the cell of a result file that says so. plots/console/rank_table.py prints it.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cluster/frame.h"
+#include "cluster/simulate.h"
 #include "harness/choice/cluster_task.h"
 #include "harness/record/record.h"
 
@@ -45,16 +46,19 @@ struct ClusterResult {
     Check check;                        ///< has no hash of the list if only facts were compared
 };
 
+/// What ranks would do, counted without running them.
+struct Simulation {
+    ClusterTask task;
+    SceneFacts scene;
+    std::int64_t part_ns = 0;  ///< host clock: a frame of the largest part alone, on this device
+    std::vector<SimulatedRank> ranks;
+};
+
 /// Returns a cell that says what was asked for and has no measurements yet.
 Cell planned_cell(const ClusterTask& task);
 
 /// Returns the cell of a result file. Ranks that may share a device have no times, because these mean nothing.
 Cell cell_of(const ClusterResult& result);
-
-/// Returns a table with a row for each rank, medians over its frames, and lines that sum up. `width`: as Table::text.
-std::string cluster_table(const ClusterResult& result, std::size_t width);
-
-/// Returns the time of a frame in nanoseconds, by the median over frames: that of the last rank to finish.
-std::int64_t frame_ns(const ClusterResult& result);
+Cell cell_of(const Simulation& simulation);
 
 }  // namespace bvhbench

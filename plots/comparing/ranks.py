@@ -48,7 +48,7 @@ def compare(first: Named, second: Named, rules: Rules, show_all: bool) -> tuple[
     if not before.keys() & after.keys() and not rules.allow_missing:
         raise WrongUsage(f"{first[0]} and {second[0]} have no cell in common")
     regressions = [] if rules.allow_missing else [f"{name}not in B" for name in before if name not in after]
-    changes = [f"not the same: {remark}" for remark in run_remarks(*runs) if "was stopped" not in remark]
+    changes = [f"not the same: {remark}" for remark in run_remarks(*runs)]
     changes += [f"{name}only in B" for name in after if name not in before]
     warnings = sides.warnings_of(warnings_of(first[1]), warnings_of(second[1]))
     rows, timed, may_tell = Table("<stage", *comparison_text.COLUMNS[1:]), machine(runs[0]) == machine(runs[1]), not warnings

@@ -76,15 +76,14 @@ def simulated(cell: Json) -> str:
     def most(key: str) -> int:
         return max(rank[key] for rank in cell["ranks"])
 
-    model = (f"a frame by the model: {duration(cell['model_ns'])}, of which the largest part takes {duration(cell['part_ns'])}\n"
-             if "model_ns" in cell else "")
     return (f"{cell['scene']['name']}: {counted(cell['scene']['triangles'], 'triangle')} on "
             f"{counted(len(cell['ranks']), 'rank')}, simulated: {cell['partition']}, {cell['builder']['name']} along "
             f"{rank_files.asked_of(cell)['order']}, {cell['boxes_count']} box{'es' * (cell['boxes_count'] > 1)} a rank\n"
             f"halo: {100 * cell['halo_share']:.1f} % of the triangles; imbalance: {cell['imbalance']:.3f} of the mean\n"
             f"a rank sends {counted(most('halo_sent_count'), 'triangle')} at most, to {counted(most('targets_count'), 'rank')} at most; "
             f"receives {counted(most('halo_received_count'), 'triangle')} at most, from {counted(most('sources_count'), 'rank')} at most\n"
-            f"boxes of all other ranks, received by each: {size(cell['box_bytes'])}\n{model}")
+            f"boxes of all other ranks, received by each: {size(cell['box_bytes'])}\n"
+            f"a frame by the model: {duration(cell['model_ns'])}, of which the largest part takes {duration(cell['part_ns'])}\n")
 
 
 def table(cells: list[Json]) -> str:
@@ -95,7 +94,7 @@ def table(cells: list[Json]) -> str:
     for run in runs:
         grows = run["scene"]["triangles"] / first["scene"]["triangles"] if first else 1  # weak: the scene of P ranks is larger
         has_time = first is not None and "frame_ns" in run
-        table.row(run["scene"]["name"], str(run["ranks_count"]), run["partition"], str(run.get("boxes_count", rank_files.USUAL_BOXES)),
+        table.row(run["scene"]["name"], str(run["ranks_count"]), run["partition"], str(run["boxes_count"]),
                   duration(run["frame_ns"]) if has_time else "", f"{grows * first['frame_ns'] / run['frame_ns']:.2f}" if has_time else "",
                   f"{100 * run['halo_share']:.1f} %", f"{run['imbalance']:.3f}",
                   "counted" if run["simulated"] else run["check"]["verdict"].replace("_", " "))

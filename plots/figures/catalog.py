@@ -4,7 +4,7 @@ import functools
 import pathlib
 
 from ..draw import figure, style
-from ..read import input_files, rank_files, results
+from ..read import input_files, results
 from . import (accuracy, family_bars, fig10, fig13, fig8, frame_bars, overview, pareto_orders, rank_curves, roofline, scaling,
                skip_bars, stress_map, sweeps, swept_bars, table1, table2, table4)
 
@@ -38,9 +38,7 @@ NAMED: dict[str, figure.Draw] = FIGURES | {"stress": stress_map.draw} | {
 
 def pictures_of(run: results.Run) -> figure.Figures:
     """Returns every figure that the file has cells for, by the name of its picture."""
-    if rank_files.is_of_ranks(run.document):
-        return rank_curves.figures_of(run)
-    draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run)
+    draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run) | rank_curves.draws_of(run)
     if run.stress:
         draws["stress"] = stress_map.draw
     for experiment, of_frames in FRAME_FIGURES.items():
@@ -63,8 +61,8 @@ def drawn(one: input_files.Given, out: pathlib.Path, inputs: list[pathlib.Path],
     run = results.load(path)
     pictures = figure.named(run, {only: NAMED[only]}) if only else pictures_of(run)
     if not pictures and not one.is_of_folder:
-        raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}; `bvhbench report` makes a page of "
-                              "any file")
+        why = rank_curves.why_none(run) or f"there is no figure of what it holds: {held(run)}; `bvhbench report` makes a page of any file"
+        raise results.Refused(f"{path}: {why}")
     for picture in figure.save_all(run, pictures, folder, [path, *inputs], force):
         print(picture)
 

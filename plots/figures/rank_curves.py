@@ -11,8 +11,6 @@ import matplotlib.pyplot as plt
 import numpy
 
 from ..draw import figure, style
-from ..files import json_files
-from ..files.json_files import Refused
 from ..read import rank_files, results
 from ..read.cells import grouped
 from ..read.rank_files import measured, stage_times
@@ -29,7 +27,7 @@ def model_s(one: dict[str, Any], largest: dict[str, Any], ranks: float, is_weak:
     measured_share = largest["scene"]["triangles"] / largest["ranks_count"]
     sent = max(rank["halo_sent_count"] for rank in largest["ranks"]) * (share / measured_share) ** 0.5
     alone = one["frame_ns"] / 1e9 * share / one["scene"]["triangles"]
-    boxes = (ranks - 1) * largest.get("boxes_count", 64)
+    boxes = (ranks - 1) * largest["boxes_count"]
     return alone + (ranks > 1) * (WAITS * WAIT_S + (sent * HALO_BYTES + boxes * BOX_BYTES) / MESSAGES_S)
 
 
@@ -109,29 +107,40 @@ def draw_one(cell: dict[str, Any]) -> plt.Figure:
     return drawing
 
 
-def figures_of(run: results.Run) -> figure.Figures:
-    """Returns the figure of each experiment in a file whose cells are all of several ranks, by the name of its picture."""
+def experiments_of(run: results.Run) -> dict[str, list[dict[str, Any]]]:
+    """Returns the measured cells of several ranks by experiment."""
     experiments = grouped(rank_files.cells_of(run.document, str(run.path)), lambda cell: cell["experiment"])
-    name = json_files.name_of(run.path)
-    return {name if len(experiments) == 1 else f"{name}-{kind}": functools.partial(draw, run, kind, cells)
-            for kind, cells in experiments.items()}
+    return {kind: measured(cells) for kind, cells in experiments.items()}
 
 
-def draw(run: results.Run, kind: str, cells: list[dict[str, Any]]) -> plt.Figure:
-    """Draws an experiment. Raises Refused if there is no figure of it."""
-    runs = measured(cells)
+def why_none(run: results.Run) -> str:
+    """Returns why there is no figure of the cells of several ranks; empty if there is one, or no such cell."""
+    reasons = [why_not(kind, runs) for kind, runs in experiments_of(run).items()]
+    return "; ".join(reasons) if all(reasons) else ""
+
+
+def why_not(kind: str, runs: list[dict[str, Any]]) -> str:
     if not runs:
-        raise Refused(f"{run.path}: no cell was measured")
+        return "no cell was measured"
+    if kind == "halo":
+        return ""
+    if any(one["simulated"] for one in runs):
+        return "of simulated ranks, only files of `bvhbench scale halo` have a figure"
+    if any("frame_ns" not in one for one in runs):
+        return "its ranks shared a device, so there are no times"
+    return "" if kind == "cluster" or runs[0]["ranks_count"] == 1 else "there is no cell of one rank to compare with"
+
+
+def draws_of(run: results.Run) -> dict[str, figure.Draw]:
+    """Returns the figure of each experiment that can have one."""
+    return {kind: functools.partial(draw, kind=kind, runs=runs) for kind, runs in experiments_of(run).items() if not why_not(kind, runs)}
+
+
+def draw(_: results.Run, kind: str, runs: list[dict[str, Any]]) -> plt.Figure:
     if kind == "halo":
         return draw_halo(runs)
-    if any(one["simulated"] for one in runs):
-        raise Refused(f"{run.path}: of simulated ranks, only files of `bvhbench scale halo` have a figure")
-    if any("frame_ns" not in one for one in runs):
-        raise Refused(f"{run.path}: its ranks shared a device, so there are no times")
     if kind == "cluster":
         return draw_one(runs[0])
-    if runs[0]["ranks_count"] != 1:
-        raise Refused(f"{run.path}: there is no cell of one rank to compare with")
     drawing, [[left, right]] = figure.grid(1, 2, 2.8, width_ratios=(1, 1.4))
     draw_curve(left, runs, kind == "weak")
     draw_stages(right, runs)

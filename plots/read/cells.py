@@ -10,6 +10,7 @@ from ..words import names
 
 Item = TypeVar("Item")
 OF_SCENE = {"frame": 0, "stand_in_for": "", "objects_by": "", "between": 0}  # what distinguishes scenes of one name; defaults
+OF_RANKS = ("ranks_count", "partition", "boxes_count", "simulated", "shares_devices", "asked_frames", "rebalance")
 MESSAGES_NS = 100_000  # least time that is put down to the messages of a method from outside
 Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in which stages ran
 
@@ -251,11 +252,8 @@ def choice(raw: dict[str, Any], without: str = "") -> tuple[str, tuple[tuple[str
 
 
 def of_ranks(cluster: dict[str, Any]) -> dict[str, Any]:
-    """Returns what was asked of several ranks; without what has its default."""
-    asked = {"ranks": cluster.get("ranks_count"), "partition": cluster.get("partition"), "boxes": cluster.get("boxes_count", 64),
-             "simulated": cluster.get("simulated"), "shared devices": cluster.get("shares_devices"), "frames": cluster.get("asked_frames"),
-             "rebalance": cluster.get("rebalance")}
-    return {key: value for key, value in asked.items() if value}
+    """Returns what was asked of several ranks."""
+    return {key: cluster[key] for key in OF_RANKS if cluster.get(key)}
 
 
 def parts(raw: dict[str, Any], without: str = "") -> dict[str, Any]:

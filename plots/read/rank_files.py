@@ -7,8 +7,7 @@ from ..files.json_files import Refused
 
 Json = dict[str, Any]
 OPERATION = "cluster"
-USUAL_BOXES = 64  # that each rank tells the others, in cells that do not say
-ASKED, FOUND = ("ranks_count", "simulated", "partition"), ("halo_share", "imbalance", "ranks")  # keys of each; of each that was measured
+ASKED, FOUND = ("ranks_count", "simulated", "partition", "boxes_count"), ("halo_share", "imbalance", "ranks")  # keys of each; of each that was measured
 
 
 def is_of_ranks(document: Json) -> bool:
@@ -54,7 +53,7 @@ def asked_of(cell: Json) -> dict[str, Any]:
     options = collider.get("options", {})
     return {"ranks": cell["ranks_count"], "partition": cell["partition"], "builder": builder.get("name"),
             "order": builder.get("options", {}).get("order"), "collider": collider.get("name"), "adjacent": options.get("adjacent"),
-            "narrow": options.get("narrow", "none"), "boxes": cell.get("boxes_count", USUAL_BOXES), "frames": len(cell.get("frames", [])),
+            "narrow": options.get("narrow", "none"), "boxes": cell["boxes_count"], "frames": len(cell.get("frames", [])),
             "devices": "shared" if cell.get("shares_devices") else "one a rank"}
 
 
