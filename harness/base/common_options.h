@@ -26,7 +26,7 @@ struct CommonOptions {
     bool quiet = false;            ///< whether tables of results are not printed
     bool wide = false;             ///< whether tables may be wider than the terminal
     bool verbose = false;
-    std::vector<std::string> given = {};  ///< those of the command line, for other processes of it
+    std::vector<std::string> given = {};  ///< those that were given, as words for ranks
 };
 
 }  // namespace bvhbench

@@ -11,7 +11,7 @@ Json = dict[str, Any]
 def text(run: results.Run) -> str:
     """Returns the tables of a file of `cluster`, and of any other file a row for each cell of ranks; empty without such cells."""
     cells = rank_files.cells_of(run.document, str(run.path))
-    if [cell["experiment"] for cell in cells] != ["cluster"]:
+    if [(cell["experiment"], cell["status"]) for cell in cells] != [("cluster", "measured")]:
         return "".join(table(those) for those in grouped(cells, lambda cell: cell["experiment"]).values())
     return (simulated if cells[0]["simulated"] else one)(cells[0])
 

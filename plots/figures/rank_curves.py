@@ -99,11 +99,11 @@ def draw_halo(runs: list[dict[str, Any]]) -> plt.Figure:
     return drawing
 
 
-def draw_one(cell: dict[str, Any]) -> plt.Figure:
-    """Draws the stages of a cell."""
+def draw_each(runs: list[dict[str, Any]]) -> plt.Figure:
+    """Draws the stages of cells of `cluster`."""
     drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH * 0.6, 2.8), layout="constrained")
-    draw_stages(axes, [cell])
-    drawing.suptitle(f"{cell['scene']['name']}, {cell['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
+    draw_stages(axes, runs)
+    drawing.suptitle(f"{runs[0]['scene']['name']}, {runs[0]['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
     return drawing
 
 
@@ -140,7 +140,7 @@ def draw(_: results.Run, kind: str, runs: list[dict[str, Any]]) -> plt.Figure:
     if kind == "halo":
         return draw_halo(runs)
     if kind == "cluster":
-        return draw_one(runs[0])
+        return draw_each(runs)
     drawing, [[left, right]] = figure.grid(1, 2, 2.8, width_ratios=(1, 1.4))
     draw_curve(left, runs, kind == "weak")
     draw_stages(right, runs)
