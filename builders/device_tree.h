@@ -69,7 +69,10 @@ public:
     virtual bool has_sorted_leaves() const = 0;
 
     virtual std::string_view access_header() const = 0;
-    virtual bool is_implicit() const = 0;          ///< TREE_IMPLICIT of the access header.
+    virtual bool is_implicit() const = 0;              ///< TREE_IMPLICIT of the access header.
+    virtual bool is_in_order() const { return true; }  ///< TREE_IN_ORDER of the access header.
+    /// True if the number of an inner node is its first leaf, of a left child its last one; only without TREE_IMPLICIT.
+    virtual bool is_numbered_by_range() const { return false; }
     virtual uint child_bits() const { return 1; }  ///< TREE_CHILD_BITS of the access header.
 
     /// Upper bound of the nodes on a path from a root to a leaf; exact for the largest implicit tree.

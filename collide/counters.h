@@ -11,6 +11,8 @@
     6u  // chunk form of group and block: number of tasks that work-items have taken; one word
 #define QUEUES_COUNT 6u  // bvtt: queue sizes, one per step
 
+#define CHILDREN_COUNT 6u  // block over a tree that it collapses: children of wide nodes
+
 // Counters of front and front-leaf, from QUEUES_COUNT on:
 #define FRONT_COUNT 6u      // entries of the front that a frame writes
 #define PRUNES_COUNT 8u     // entries that climbed to an ancestor

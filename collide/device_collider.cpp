@@ -73,7 +73,7 @@ std::string DeviceCollider::refusal(const Tree& tree) const
                std::to_string(on_device->leaf_count());
     if (std::string why = objection(*on_device); !why.empty())
         return why;
-    if (has_ropes(*on_device) && device().ends_loops)
+    if (follows_pointers(*on_device) && device().ends_loops)
         return std::string(card_.name) + " follows pointers of a tree in loops that " +
                device().name() + " ends early";
     return {};

@@ -40,6 +40,9 @@ protected:
     /// Returns the reason why the collider cannot query this kind of tree, as a sentence; empty if it can.
     virtual std::string objection(const DeviceTree&) const { return {}; }
 
+    /// True if kernels follow pointers of this tree in loops.
+    virtual bool follows_pointers(const DeviceTree& tree) const { return has_ropes(tree); }
+
     /// Compiles for frames like `input`; sets the initial buffer sizes and `queue_count_`.
     virtual void compile(const Input& input) = 0;
 

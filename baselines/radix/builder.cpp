@@ -193,6 +193,7 @@ void RadixBuilder::plan(Arena& arena, std::span<const uint> sizes)
 {
     tree_.leaves = std::accumulate(sizes.begin(), sizes.end(), 0u);
     tree_.objects = radix_objects(sizes);
+    tree_.numbered_by_range = !searches_roots_ && !tree_.is_clustered;
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
     leaf_order_.plan(arena, sizes, tree_.sorted ? Use::scratch : Use::tree, true);
     tree_.code_bits = leaf_order_.code_bits();

@@ -34,6 +34,8 @@ public:
     /// True if the tree is that of baselines/hploc, whose leaves are not in the order of their places.
     bool is_clustered = false;
 
+    bool numbered_by_range = false;  ///< whether inner nodes are numbered as in node.h
+
     std::size_t inner() const { return std::size_t{leaves} - 1; }  ///< number of inner nodes
     std::size_t inner_bytes() const;  ///< bytes of one entry of `nodes`
 
@@ -41,6 +43,8 @@ public:
     const BoxFormat& box_format() const override { return *format; }
     bool has_sorted_leaves() const override { return sorted; }
     bool is_implicit() const override { return false; }
+    bool is_in_order() const override { return !is_clustered; }
+    bool is_numbered_by_range() const override { return numbered_by_range; }
     std::size_t node_count() const override { return 2 * std::size_t{leaves} - 1; }
     uint most_levels() const override;
     std::string_view access_header() const override;

@@ -90,7 +90,8 @@ private:
             by_groups()
                 ? kernel(
                       "collide/front/front_groups.cl", "advance",
-                      {{"GROUP_SIZE", group_size_}, {"ITEMS", device().tuned(front_items)}, label})
+                      {{"GROUP_SIZE", group_size_}, {"ITEMS", device().tuned(front_items)}, label},
+                      Optimise::on_gpus)
                 : kernel("collide/front/front_chunks.cl", "advance",
                          {{"SINK_BLOCK", block_pairs_}, label});
         roots_ = kernel("collide/queues/roots.cl", "list_roots", {label, {"SKIP_APART", 0}});

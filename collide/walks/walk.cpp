@@ -7,7 +7,7 @@
 #include "collide/device_collider.h"
 #include "collide/device_lists.h"
 #include "collide/parameters.h"
-#include "collide/walks/task.h"
+#include "collide/walks/collapse.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -37,16 +37,25 @@ public:
     Walk(Programs& programs, const ColliderOptions& options, By by)
         : DeviceCollider(programs, cards[static_cast<int>(by)], options,
                          by == By::leaf ? leaf_group_size : group_group_size,
-                         Wants::tree_with_ropes)
+                         by == By::block && is_by_groups(programs, options)
+                             ? Wants::tree
+                             : Wants::tree_with_ropes)
         , by_(by)
     {}
 
 private:
     std::string objection(const DeviceTree& tree) const override
     {
-        if (by_ == By::block && (!tree.is_implicit() || tree.child_bits() != 1))
-            return "block needs a binary implicit tree, whose blocks of leaves are subtrees";
+        if (by_ == By::block && (tree.child_bits() != 1 || !tree.is_in_order()))
+            return "block needs a binary tree with its leaves in order";
         return {};
+    }
+
+    bool follows_pointers(const DeviceTree& tree) const override { return !tree.is_implicit(); }
+
+    static bool is_by_groups(Programs& programs, const ColliderOptions& options)
+    {
+        return chosen_form(programs.device(), options.form) == KernelForm::groups;
     }
 
     void compile(const Input&) override
@@ -78,8 +87,8 @@ private:
         task_leaves_ = group_size_;
         items_a_task_ = launch_group_ = group_size_;
         if (by_ == By::leaf) {
-            walk_ =
-                kernel("collide/walks/leaf_groups.cl", "leaf_pairs", {{"GROUP_SIZE", group_size_}});
+            walk_ = kernel("collide/walks/leaf_groups.cl", "leaf_pairs",
+                           {{"GROUP_SIZE", group_size_}}, Optimise::on_gpus);
         } else if (by_ == By::group) {
             compile_group();
         } else {
@@ -94,10 +103,16 @@ private:
             items_a_task_ = std::size_t{teams_a_task} * lanes;
             launch_group_ = std::size_t{teams} * lanes;
             zeroes_next_ = true;
-            walk_ =
-                kernel("collide/walks/block.cl", "block_pairs",
-                       {{"TEAMS", teams}, {"LOOSE", block_loose}, {"TEAMS_A_TASK", teams_a_task}},
-                       Optimise::on_gpus);
+            collapse_.reset();
+            if (!tree().is_implicit() && tree().leaf_count() > 1)
+                collapse_.emplace(programs(), tree(), options_.capacity);
+            queue_count_ = collapse_ ? 1 : 0;  // CHILDREN_COUNT
+            walk_ = kernel("collide/walks/block.cl", "block_pairs",
+                           {{"TEAMS", teams},
+                            {"LOOSE", block_loose},
+                            {"TEAMS_A_TASK", teams_a_task},
+                            {"CLASSES", collapse_ ? collapse_->classes() : 1}},
+                           Optimise::on_gpus);
         }
     }
 
@@ -143,16 +158,31 @@ private:
     void plan(Arena& arena) override
     {
         own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
+        if (collapse_)
+            collapse_->plan(arena);
         between_ = arena.take<QueryTask>(std::max<std::size_t>(1, between_room_), Use::scratch);
         if (block_pairs_ > 0)
             blocks_ = arena.take<Pair>(block_pairs_ * chunks_, Use::scratch);
     }
 
-    void fill(const cl::CommandQueue& queue) override { own_.upload(queue, own_list_); }
-
-    bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>&) override
+    void fill(const cl::CommandQueue& queue) override
     {
-        return had_room(between_room_, tasks, tasks / 8, sizeof(QueryTask), device(), "tasks");
+        own_.upload(queue, own_list_);
+        if (collapse_)
+            collapse_->prepare(queue);
+    }
+
+    bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queues) override
+    {
+        const bool has_children = !collapse_ || collapse_->had_room_for(queues.front());
+        return had_room(between_room_, tasks, tasks / 8, sizeof(QueryTask), device(), "tasks") &&
+               has_children;
+    }
+
+    void enqueue_before(const Input&, Queue& queue) override
+    {
+        if (collapse_)
+            collapse_->enqueue(tree(), queue);
     }
 
     void enqueue(const Input& input, Queue& queue) override
@@ -171,6 +201,11 @@ private:
             return;
         if (block_pairs_ > 0)
             bind(walk_, input, own_, tasks_within, between_, between_room, blocks_);
+        else if (collapse_)
+            bind(walk_, input, own_, tasks_within, between_, between_room, next_counters_,
+                 static_cast<uint>(next_counters_.size()), collapse_->children(),
+                 collapse_->child_ends(), collapse_->roots(), collapse_->child_count(),
+                 collapse_->room());
         else if (zeroes_next_)
             bind(walk_, input, own_, tasks_within, between_, between_room, next_counters_,
                  static_cast<uint>(next_counters_.size()));
@@ -187,8 +222,9 @@ private:
     std::size_t items_a_task_ = 0, launch_group_ = 1;  ///< in work-items; 0: all share all tasks
     uint block_pairs_ = 0;                             ///< pairs that a work-item buffers; 0: none
     cl::Kernel walk_, between_kernel_;
-    std::vector<QueryTask> own_list_;  ///< tasks of each object against its own tree
-    std::size_t between_room_ = 0;     ///< capacity of between_, in tasks
+    std::vector<QueryTask> own_list_;   ///< tasks of each object against its own tree
+    std::size_t between_room_ = 0;      ///< capacity of between_, in tasks
+    std::optional<Collapse> collapse_;  ///< of `block` over a tree with pointers
     Buffer<QueryTask> own_;
     Buffer<QueryTask> between_;
     Buffer<Pair> blocks_;

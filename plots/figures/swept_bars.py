@@ -13,7 +13,7 @@ from ..read import results
 from ..words import tables
 
 KINDS = ("vertex-face", "edge-edge")
-QUERY = ("ropes", "broad")
+QUERY = ("ropes", "collapse", "broad")
 ROW = 0.25  # inches for the two bars of a pipeline
 HEIGHT = 0.4  # of a bar, relative to the row
 PALE = 0.4

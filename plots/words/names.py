@@ -4,11 +4,11 @@ from typing import Any
 
 # Stages in the order in which they run, by the part of a frame that they belong to (docs/frames.md). A part is named after its
 # stages, so that a figure and a table use one word for one thing.
-PARTS = (("upload", "near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "ropes"), ("copy", "broad"),
-         ("narrow", "read_back"))
+PARTS = (("upload", "near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "ropes"),
+         ("collapse", "copy", "broad"), ("narrow", "read_back"))
 STAGES = tuple(stage for stages in PARTS for stage in stages)
 OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "build", "refit")
-OF_QUERIES = ("ropes", "broad", "narrow")
+OF_QUERIES = ("ropes", "collapse", "broad", "narrow")
 BETWEEN = "between stages"
 # Builders and colliders from outside, in the order in which their cells were read (cells.py).
 OUTSIDE: dict[str, None] = {}

@@ -18,6 +18,36 @@ TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
         }
 }
 
+TEST(Block, FindsTheOraclesPairsInTreesThatItCollapses)
+{
+    // Sizes at and next to those of classes of wide nodes: 32, 512 and 8192 leaves. Nodes are numbered in three ways.
+    for (const std::size_t size : {2u, 32u, 33u, 512u, 513u, 8193u})
+        for (const char* builder : {"karras", "apetrei", "lbvh-levels"}) {
+            SCOPED_TRACE(std::to_string(size) + " triangles, " + builder);
+            for (const std::size_t capacity : {0u, 1u}) {
+                const auto block =
+                    made("block", {.form = KernelForm::groups, .capacity = capacity});
+                const Mesh surface = scene_mesh("torus:" + std::to_string(size));
+                expect_oracles_pairs(*block, Standing(surface, builder));
+            }
+        }
+}
+
+TEST(Block, FindsTheOraclesPairsInATreeWhoseNodesHaveALeafAndTheRest)
+{
+    // Each triangle is half as far from the origin as the one before, so wide nodes have leaves and blocks of one leaf as children.
+    Mesh mesh = collinear_mesh(30 * 40);
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+        mesh.points[k].x =
+            std::ldexp(1.0f + 0.01f * static_cast<float>(k % 3), -static_cast<int>(k / 3 % 30));
+    for (const bool keep_adjacent : {true, false}) {
+        const auto block =
+            made("block", {.keep_adjacent = keep_adjacent, .form = KernelForm::groups});
+        expect_oracles_pairs(*block, Standing(mesh, "karras", {.order = "morton63"}),
+                             keep_adjacent);
+    }
+}
+
 TEST(Block, FindsMorePairsThanATeamKeeps)
 {
     // The same triangle 200 times: seven blocks, most pairs of which meet in more than 256 pairs of triangles.
@@ -34,12 +64,13 @@ TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
     std::vector<FaceRange> objects;
     for (uint k = 0; k < 40; ++k)
         objects.push_back({k, 1});
-    for (const bool is_sorted : {false, true}) {
-        const auto block = made("block", {.form = KernelForm::groups});
-        const Standing standing(mesh, "oibvh-multi", {.sorted_leaves = is_sorted}, objects);
-        expect_oracles_pairs(*block, standing);
-        EXPECT_EQ(block->counts(session().queue()).pairs, 39u + 38u);
-    }
+    for (const char* builder : {"oibvh-multi", "apetrei-fused"})
+        for (const bool is_sorted : {false, true}) {
+            const auto block = made("block", {.form = KernelForm::groups});
+            const Standing standing(mesh, builder, {.sorted_leaves = is_sorted}, objects);
+            expect_oracles_pairs(*block, standing);
+            EXPECT_EQ(block->counts(session().queue()).pairs, 39u + 38u);
+        }
 }
 
 TEST(Block, CountsWhatAHandCounts)

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "collide/walks/collapse.h"
+
+#include "collide/device_lists.h"
+#include "geometry/bits.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::size_t collapse_group = 128;
+
+/// Of count_before.
+constexpr uint counting_group = 256, words_per_item = 8;
+constexpr uint counted_words = counting_group * words_per_item;
+constexpr uint look_back_epoch_bits = 31;
+
+/// Children of wide nodes a leaf that there is room for at first: blocks have some 20 leaves.
+constexpr double first_children_each = 0.08;
+
+}  // namespace
+
+Collapse::Collapse(Programs& programs, const DeviceTree& tree, std::size_t room)
+    : device_(programs.device())
+    , is_numbered_by_range_(tree.is_numbered_by_range())
+    , leaves_(tree.leaf_count())
+    , objects_(static_cast<uint>(tree.objects.size()))
+    , lists_(wide_class(leaves_))
+    , words_(divided_up(leaves_, 32))
+    , child_bytes_(tree.box_format().number == BOX_F64 ? 56 : sizeof(WideChild))
+    , room_(room != 0 ? room : 64 + static_cast<std::size_t>(first_children_each * leaves_))
+{
+    const std::vector<Define> defines = {{"SORTED_LEAVES", tree.has_sorted_leaves() ? 1u : 0u},
+                                         {"BOX_FORMAT", tree.box_format().number},
+                                         {"NUMBERED_BY_RANGE", is_numbered_by_range_ ? 1u : 0u},
+                                         {"GROUP_SIZE", counting_group},
+                                         {"WORDS_PER_ITEM", words_per_item},
+                                         {"STATE_EPOCH_BITS", look_back_epoch_bits}};
+    const auto kernel = [&](const char* name) {
+        return programs.kernel(tree.access_header(), "collide/walks/collapse.cl", name, defines);
+    };
+    ranges_ = kernel("find_ranges");
+    mark_ = kernel("mark");
+    count_ = kernel("count_before");
+    fill_ = kernel("fill");
+}
+
+void Collapse::plan(Arena& arena)
+{
+    const std::size_t words = std::size_t{lists_} * words_ + 1, inner = leaves_ - 1;
+    ends_ = arena.take<uint>(is_numbered_by_range_ ? inner : 2 * inner, Use::scratch);
+    marks_ = arena.take<uint>(words, Use::scratch);
+    counts_ = arena.take<uint>(words, Use::scratch);
+    states_ = arena.take<std::uint64_t>(divided_up(static_cast<uint>(words), counted_words),
+                                        Use::scratch);
+    tiles_taken_ = arena.take<uint>(1, Use::scratch);
+    children_ = arena.take<std::byte>(room_ * child_bytes_, Use::scratch);
+    child_ends_ = arena.take<uint>(room_, Use::scratch);
+    roots_ = arena.take<cl_uint2>(objects_, Use::scratch);
+    child_count_ = arena.take<uint>(1, Use::scratch);
+}
+
+void Collapse::prepare(const cl::CommandQueue& queue)
+{
+    states_.upload(queue, std::vector<std::uint64_t>(states_.size()));
+    tiles_taken_.upload(queue, std::vector<uint>(1));
+    epoch_ = 0;
+}
+
+void Collapse::enqueue(const DeviceTree& tree, Queue& queue)
+{
+    queue.begin("collapse");
+    const auto launch = [&](cl::Kernel& kernel, std::size_t bytes, const auto&... more) {
+        set_arguments_from(kernel, tree.bind(kernel, 0), more...);
+        queue.launch(kernel, (leaves_ + collapse_group - 1) / collapse_group * collapse_group,
+                     collapse_group, static_cast<std::int64_t>(bytes));
+    };
+    const auto words = static_cast<uint>(marks_.size());
+    launch(ranges_, 2 * ends_.bytes(), ends_, marks_, words);
+    launch(mark_, ends_.bytes(), ends_, marks_, words_);
+    const std::size_t groups = device_.lets_groups_wait() ? states_.size() : 1;
+    queue.launch(set_arguments(count_, marks_, counts_, words, states_, ++epoch_, tiles_taken_),
+                 groups * counting_group, counting_group,
+                 static_cast<std::int64_t>(2 * counts_.bytes()));
+    launch(fill_, ends_.bytes(), objects_, ends_, marks_, counts_, words_, lists_, children_,
+           child_ends_, room(), roots_, child_count_, tiles_taken_);
+}
+
+bool Collapse::had_room_for(std::uint64_t children)
+{
+    return had_room(room_, children, children / 8, child_bytes_, device_, "children of wide nodes");
+}
+
+}  // namespace bvhbench

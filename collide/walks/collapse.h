@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "builders/device_tree.h"
+#include "collide/walks/wide_node.h"
+#include "device/arena.h"
+#include "device/program.h"
+
+namespace bvhbench {
+
+/// Collapses a binary tree with pointers into the blocks of leaves and the wide nodes that `block` walks (collapse.cl).
+class Collapse {
+public:
+    /// Compiles for this tree. `room` is the first capacity in children, or 0.
+    Collapse(Programs& programs, const DeviceTree& tree, std::size_t room);
+
+    /// Takes all memory: 5 bytes a leaf or more, and 36 a child.
+    void plan(Arena& arena);
+
+    /// Clears what enqueue() expects clear in new memory. Waits.
+    void prepare(const cl::CommandQueue& queue);
+
+    /// Enqueues the stage. Does not block.
+    void enqueue(const DeviceTree& tree, Queue& queue);
+
+    /// True if there was room for `children`; otherwise the next plan() takes more.
+    bool had_room_for(std::uint64_t children);
+
+    /// Number of classes of wide nodes: CLASSES of block_team.clh.
+    uint classes() const { return std::max(1u, lists_); }
+
+    /// What block_collapsed.clh takes.
+    const Buffer<std::byte>& children() const { return children_; }
+    const Buffer<uint>& child_ends() const { return child_ends_; }
+    const Buffer<cl_uint2>& roots() const { return roots_; }
+    const Buffer<uint>& child_count() const { return child_count_; }
+    uint room() const { return static_cast<uint>(room_); }
+
+private:
+    const Device& device_;
+    bool is_numbered_by_range_;
+    uint leaves_, objects_, lists_, words_;
+    std::size_t child_bytes_, room_;
+    cl::Kernel ranges_, mark_, count_, fill_;
+    uint epoch_ = 0;  ///< of the last look-back
+    Buffer<cl_uint2> roots_;
+    Buffer<uint> ends_, marks_, counts_, child_ends_, child_count_, tiles_taken_;
+    Buffer<std::uint64_t> states_;
+    Buffer<std::byte> children_;
+};
+
+}  // namespace bvhbench
