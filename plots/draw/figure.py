@@ -158,7 +158,7 @@ def made(run: results.Run, figures: Figures, make: Callable[[plt.Figure, str], M
     for name, draw in figures.items():
         try:
             yield make(draw(), name)
-        except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, UserWarning, ValueError) as error:
+        except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError, Warning) as error:
             plt.close("all")  # what was begun
             raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
 

@@ -117,7 +117,8 @@ def label(series: Series, among: list[Series]) -> str:
 
 
 def set_up() -> None:
-    warnings.simplefilter("error", UserWarning)  # a warning, such as one about panels without room, prevents the figure
+    for kind in (UserWarning, RuntimeWarning):  # about panels without room, or numbers that overflow: there is no figure then
+        warnings.simplefilter("error", kind)
     warnings.filterwarnings("ignore", "Glyph")  # a letter that the font lacks is drawn as a box
     plt.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8,
