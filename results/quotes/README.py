@@ -25,6 +25,16 @@ def families(doc: Document) -> None:
     for family in bests[0]:
         doc.row(labels.get(family, family), *(told(of[family], next(iter(of.values()))) for of in bests))
     doc.says("with `bvtt`, it takes {} to {} times the best", min(as_printed[:3]), max(as_printed[:3]))
+    on_h200 = list(ranking.ranked(File("h200/families").cells).scenes.values())
+
+    def ratios(collider: str, tree: str) -> list[float]:
+        return [next(row.ratio for row in rows if row.first.collider == collider and row.first.called.endswith(tree)) for rows in on_h200]
+
+    block, bvtt = ratios("block", "over oibvh-multi"), ratios("bvtt", "over oibvh-single (hilbert30)")
+    doc.says("with `block` over the same trees it takes {} to {} times the best, and with `bvtt` along a Hilbert curve {} to {}",
+             min(block), max(block), min(bvtt), max(bvtt))
+    by_group = [{ranking_text.family(row): row.ns for row in reversed(rows) if row.first.collider == "group"} for rows in on_h200]
+    doc.says("radix trees take {}, {} and {} times as long as implicit trees", *(of["radix trees"] / of["implicit trees"] for of in by_group))
     implicit, padded = ([of[family].ns for of in bests[:3]] for family in ("implicit trees", "padded implicit trees"))
     assert all(of["implicit trees"].ratio == 1 for of in bests[:3]), "README says that it wins on all three scenes"
     doc.says("the padded tree, which is simpler, takes at most {} times as long", max(map(operator.truediv, padded, implicit)))
