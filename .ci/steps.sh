@@ -3,9 +3,11 @@
 
 failed=()
 
-# step NAME COMMAND...: runs the command and prints its time. A failure is recorded, and the next step still runs.
+# step NAME COMMAND...: runs the command and prints its time. A failure is recorded, and the next step still runs. If `only` is set, it
+# is an expression, and steps whose names it does not match are left out.
 step() {
     local name=$1 start=$SECONDS status=0
+    [[ $name =~ ${only:-} ]] || return 0
     shift
     printf '\n== %s: %s\n' "$name" "$*"
     "$@" || status=$?
