@@ -2,11 +2,10 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DGROUP_SIZE=256u -DWORDS_PER_ITEM=4u -DSTATE_EPOCH_BITS=31u -DNUMBERED_BY_RANGE=1
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=1 -DGROUP_SIZE=256u -DWORDS_PER_ITEM=4u -DSTATE_EPOCH_BITS=31u -DNUMBERED_BY_RANGE=0
 //
-// Collapses a binary tree with pointers, whose leaves are in order, into wide nodes above blocks of leaves. A block is a largest
-// subtree of at most BLOCK_LEAVES leaves. A wide node is a subtree whose class (wide_node.h) is below its parent's; its children are
-// the largest subtrees below it of a lower class than its own. So if an inner node of class c has a child of a lower class, that one is
-// a child of the wide node that both are in. All such children are list c - 1, in the order of their leaves: the children of a wide
-// node follow each other.
+// Collapses a binary tree with pointers, whose leaves are in order, into wide nodes above small subtrees: the largest ones of at most
+// BLOCK_LEAVES leaves. A wide node is a subtree whose class (wide_node.h) is below its parent's; its children are the largest subtrees
+// below it of a lower class than its own. So if an inner node of class c has a child of a lower class, that one is a child of the wide
+// node that both are in. All such children are list c - 1, in the order of their leaves: the children of a wide node follow each other.
 //
 //     ranges   the first and the last leaf of all inner nodes
 //     mark     one bit for each leaf in each list: whether a subtree of the list begins there

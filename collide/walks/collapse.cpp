@@ -14,7 +14,7 @@ constexpr uint counting_group = 256, words_per_item = 8;
 constexpr uint counted_words = counting_group * words_per_item;
 constexpr uint look_back_epoch_bits = 31;
 
-/// Children of wide nodes a leaf that there is room for at first: blocks have some 20 leaves.
+/// Children of wide nodes a leaf that there is room for at first: small subtrees have some 20 leaves.
 constexpr double first_children_each = 0.08;
 
 }  // namespace

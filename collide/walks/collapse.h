@@ -10,7 +10,7 @@
 
 namespace bvhbench {
 
-/// Collapses a binary tree with pointers into the blocks of leaves and the wide nodes that `block` walks (collapse.cl).
+/// Collapses a binary tree with pointers into the wide nodes that `block` walks (collapse.cl).
 class Collapse {
 public:
     /// Compiles for this tree. `room` is the first capacity in children, or 0.

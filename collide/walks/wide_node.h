@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Wide nodes over the blocks of a binary tree, for host and device; collapse.cl makes them.
+// Wide nodes above the small subtrees of a binary tree, for host and device; collapse.cl makes them.
 #ifndef BVHBENCH_COLLIDE_WIDE_NODE_H
 #define BVHBENCH_COLLIDE_WIDE_NODE_H
 
@@ -20,7 +20,7 @@ SHARED_BEGIN
 /// A child of a wide node. 32 bytes, which two aligned loads of 16 bytes read.
 typedef struct {
     Aabb box;
-    uint first;  ///< of a block, its first leaf; else the number of its first child
+    uint first;  ///< of a small subtree, its first leaf; else the number of its first child
     uint count;  ///< of its leaves, with OF_LEAVES, or of its children
 } WideChild;
 
