@@ -28,7 +28,7 @@ struct ClusterTask {
 
     std::string experiment = "cluster";
     std::string scene;
-    unsigned ranks = 0;      ///< processes; 0: those of which this process is one
+    unsigned ranks = 0;      ///< processes; 0: this process is one of those that are there
     unsigned simulates = 0;  ///< ranks that are counted and not run; 0: ranks run
     PartitionBy partition = PartitionBy::rcb;
     PipelineChoice pipeline = {{.name = "oibvh-multi"}, {.name = "leaf"}};
