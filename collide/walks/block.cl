@@ -4,6 +4,7 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DTEAMS_A_TASK=1u -DBOX_FORMAT=1u
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DTEAMS_A_TASK=1u -DBOX_FORMAT=2u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u -DTEAMS_A_TASK=2u -DCLASSES=5u
+// check: -include baselines/hploc/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u -DTEAMS_A_TASK=2u -DCLASSES=5u
 //
 // A team queries the tree with a block: up to 32 neighbouring leaves, in an implicit tree a subtree. It traverses the tree as one of
 // nodes with up to 32 children: those of an implicit tree are found by arithmetic (block_implicit.clh), those of a tree with pointers were
@@ -33,22 +34,22 @@
 #endif
 
 /// Loads the leaves of a task into `team` and their common box into `common`. True if that is loose (LOOSE).
-static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint lane,
+static inline bool load_block(FOREST_PARAMETERS WALK_PARAMETERS, local Team *team, const uint lane,
                               global const Face *faces, const QueryTask task, Aabb *common)
 {
     PICK_TREE(task.own)
-    const uint row = leaf_row(TREE), first = tree_leaf(TREE, task.first);
+    const uint row = leaf_row(TREE);
     Aabb part = empty_box();
     float area = 0.0f;
     EACH (k) {
-        const uint leaf = first + min(k, task.count - 1u);
+        const uint leaf = own_leaf(TREE WALK, task.first, min(k, task.count - 1u));
         const Aabb box = leaf_box_at(TREE, row, leaf);
         put_box(team->own_low, team->own_high, k, box);
         team->own_ids[k] = tree_triangle(TREE, leaf);
         area += half_surface(box);
         part = merged(part, box);
     }
-    *common = common_box(TREE, team, lane, first, part);
+    *common = common_box(TREE, team, lane, tree_leaf(TREE, task.first), part);
     load_faces(team->own_faces, team->own_ids, lane, faces, BLOCK);
     return half_surface(*common) > LOOSE * team_sum(area);
 }
@@ -60,7 +61,7 @@ static inline ulong walk_block(FOREST_PARAMETERS WALK_PARAMETERS, local Team *te
 {
     Aabb common;
     const bool is_own = task.own == task.other;
-    const bool is_loose = load_block(FOREST, team, lane, faces, task, &common);
+    const bool is_loose = load_block(FOREST WALK, team, lane, faces, task, &common);
     PICK_TREE(task.other)
     uint tests = 0u, met = 0u, kept_count = 0u, seen = 0u;
     if (is_own && share == 0u) {
@@ -80,7 +81,7 @@ static inline ulong walk_block(FOREST_PARAMETERS WALK_PARAMETERS, local Team *te
             const uint tested = tested_by(step, k);
             Entry entry;
             const Aabb box = tested_box(TREE WALK, step, tested, &entry);
-            const uint leaf = is_of_leaves(step) ? leaf_of(TREE, tested) : 0u;
+            const uint leaf = is_of_leaves(step) ? leaf_of(TREE WALK, tested) : 0u;
             const uint triangle = is_of_leaves(step) ? tree_triangle(TREE, leaf) : 0u;
             bool meets = is_tested(TREE WALK, step, k, tested) && overlap(common, box) &&
                          (!is_above_leaves(step, entry) || tested % TEAMS_A_TASK == share);

@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: MIT
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DGROUP_SIZE=256u -DWORDS_PER_ITEM=4u -DSTATE_EPOCH_BITS=31u -DNUMBERED_BY_RANGE=1
+// check: -include baselines/hploc/access.clh -DSORTED_LEAVES=1 -DGROUP_SIZE=256u -DWORDS_PER_ITEM=4u -DSTATE_EPOCH_BITS=31u -DNUMBERED_BY_RANGE=0
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=1 -DGROUP_SIZE=256u -DWORDS_PER_ITEM=4u -DSTATE_EPOCH_BITS=31u -DNUMBERED_BY_RANGE=0
 //
-// Collapses a binary tree with pointers, whose leaves are in order, into wide nodes above small subtrees: the largest ones of at most
+// Collapses a binary tree with pointers into wide nodes above small subtrees: the largest ones of at most
 // BLOCK_LEAVES leaves. A wide node is a subtree whose class (wide_node.h) is below its parent's; its children are the largest subtrees
 // below it of a lower class than its own. So if an inner node of class c has a child of a lower class, that one is a child of the wide
 // node that both are in. All such children are list c - 1, in the order of their leaves: the children of a wide node follow each other.
 //
-//     ranges   the first and the last leaf of all inner nodes
+//     ranges   the first and the last leaf of all inner nodes; line_up.cl finds them if leaves are not in the tree's order
 //     mark     one bit for each leaf in each list: whether a subtree of the list begins there
 //     count    how many bits there are before each word, and so a subtree's place in its list
 //     fill     the lists, and the objects' roots
 #include "builders/stages/chunk.clh"
 #include "builders/stages/group_scan.clh"
 #include "builders/stages/sort/look_back.clh"
+#include "collide/tree.clh"
 #include "collide/walks/wide_node.h"
 
 #define WORD_BITS 32u
 #define TILE (GROUP_SIZE * WORDS_PER_ITEM)
 
-/// Position of a leaf among all leaves.
-static inline uint position_of(TREE_PARAMETERS, const uint leaf)
+/// Position of a leaf among all leaves in the order of the tree; `positions` has those of all places if they are others.
+static inline uint position_of(TREE_PARAMETERS, global const uint* positions, const uint leaf)
 {
-    return tree_number(TREE, leaf) - (all_leaves - 1u);
+    const uint place = tree_number(TREE, leaf) - (all_leaves - 1u);
+    return TREE_IN_ORDER ? place : positions[place];
 }
 
 // The range of leaves of inner node number k. Of a tree that is numbered by range (builders/device_tree.h), k is one of its ends, and
@@ -82,7 +85,7 @@ kernel void find_ranges(FOREST_PARAMETERS, global uint* ends, global uint* marks
             while (!tree_is_leaf(TREE, last))
                 last = tree_right(TREE, last);
         const uint end =
-            tree_is_leaf(TREE, last) ? position_of(TREE, last) : tree_number(TREE, last);
+            tree_is_leaf(TREE, last) ? position_of(TREE, 0, last) : tree_number(TREE, last);
         for (uint node = left; !tree_is_leaf(TREE, node); node = tree_right(TREE, node))
             put_last(ends, tree_number(TREE, node), end);
         const uint begin = is_root ? 0u : end + 1u;
@@ -92,11 +95,12 @@ kernel void find_ranges(FOREST_PARAMETERS, global uint* ends, global uint* marks
 }
 
 /// Returns the last leaf of a left child.
-static inline uint last_of(TREE_PARAMETERS, global const uint* ends, const uint left)
+static inline uint last_of(TREE_PARAMETERS, global const uint* positions, global const uint* ends,
+                           const uint left)
 {
     const uint number = tree_number(TREE, left);
     if (tree_is_leaf(TREE, left))
-        return position_of(TREE, left);
+        return position_of(TREE, positions, left);
     return NUMBERED_BY_RANGE ? number : range_of(ends, number).y;
 }
 
@@ -112,8 +116,8 @@ static inline void put_bit(volatile global uint* list, const uint position)
 }
 
 /// `marks` are lists of `words` words each, and a word more. They are zero before.
-kernel void mark(FOREST_PARAMETERS, global const uint* ends, volatile global uint* marks,
-                 const uint words)
+kernel void mark(FOREST_PARAMETERS, global const uint* positions, global const uint* ends,
+                 volatile global uint* marks, const uint words)
 {
     PICK_WHOLE_TREE(void) objects;
     const Chunk chunk = own_chunk(leaves - 1u);
@@ -122,7 +126,7 @@ kernel void mark(FOREST_PARAMETERS, global const uint* ends, volatile global uin
         const uint class = wide_class(range.y - range.x + 1u);
         if (class == 0u)
             continue;
-        const uint split = last_of(TREE, ends, tree_left(TREE, tree_inner(TREE, k)));
+        const uint split = last_of(TREE, positions, ends, tree_left(TREE, tree_inner(TREE, k)));
         volatile global uint* list = marks + (ulong)(class - 1u) * words;
         if (is_listed(split - range.x + 1u, class))
             put_bit(list, range.x);
@@ -208,10 +212,10 @@ static inline void put_child(TREE_PARAMETERS, LISTS_PARAMETERS, const uint list,
 
 /// Writes the lists to `wide_children`, the ends of their leaves to `child_ends`, each object's root to `roots`, and how many children
 /// there are to `child_count`. If there are more than `most_children`, writes none. Zeroes `tiles_taken`.
-kernel void fill(FOREST_PARAMETERS, const uint object_count, global const uint* ends,
-                 LISTS_PARAMETERS, const uint lists, global WideChild* wide_children,
-                 global uint* child_ends, const uint most_children, global uint2* roots,
-                 global uint* child_count, global uint* tiles_taken)
+kernel void fill(FOREST_PARAMETERS, const uint object_count, global const uint* positions,
+                 global const uint* ends, LISTS_PARAMETERS, const uint lists,
+                 global WideChild* wide_children, global uint* child_ends, const uint most_children,
+                 global uint2* roots, global uint* child_count, global uint* tiles_taken)
 {
     PICK_WHOLE_TREE
     const uint count = counts[(ulong)lists * words];
@@ -230,7 +234,7 @@ kernel void fill(FOREST_PARAMETERS, const uint object_count, global const uint* 
         if (class == 0u)
             continue;
         const uint node = tree_inner(TREE, k), left = tree_left(TREE, node);
-        const uint split = last_of(TREE, ends, left);
+        const uint split = last_of(TREE, positions, ends, left);
         const uint left_leaves = split - range.x + 1u, right_leaves = range.y - split;
         if (is_listed(left_leaves, class))
             put_child(TREE, LISTS, class - 1u, left, range.x, left_leaves, wide_children,

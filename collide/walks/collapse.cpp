@@ -21,6 +21,7 @@ constexpr double first_children_each = 0.08;
 
 Collapse::Collapse(Programs& programs, const DeviceTree& tree, std::size_t room)
     : device_(programs.device())
+    , is_in_order_(tree.is_in_order())
     , is_numbered_by_range_(tree.is_numbered_by_range())
     , leaves_(tree.leaf_count())
     , objects_(static_cast<uint>(tree.objects.size()))
@@ -35,10 +36,14 @@ Collapse::Collapse(Programs& programs, const DeviceTree& tree, std::size_t room)
                                          {"GROUP_SIZE", counting_group},
                                          {"WORDS_PER_ITEM", words_per_item},
                                          {"STATE_EPOCH_BITS", look_back_epoch_bits}};
-    const auto kernel = [&](const char* name) {
-        return programs.kernel(tree.access_header(), "collide/walks/collapse.cl", name, defines);
+    const auto kernel = [&](const char* name, const char* path = "collide/walks/collapse.cl") {
+        return programs.kernel(tree.access_header(), path, name, defines);
     };
-    ranges_ = kernel("find_ranges");
+    if (is_in_order_)
+        ranges_ = kernel("find_ranges");
+    else
+        for (const char* name : {"link", "mark_roots", "count", "line_up"})
+            line_up_.push_back(kernel(name, "collide/walks/line_up.cl"));
     mark_ = kernel("mark");
     count_ = kernel("count_before");
     fill_ = kernel("fill");
@@ -47,7 +52,13 @@ Collapse::Collapse(Programs& programs, const DeviceTree& tree, std::size_t room)
 void Collapse::plan(Arena& arena)
 {
     const std::size_t words = std::size_t{lists_} * words_ + 1, inner = leaves_ - 1;
+    const std::size_t lined_up = is_in_order_ ? 1 : leaves_;
     ends_ = arena.take<uint>(is_numbered_by_range_ ? inner : 2 * inner, Use::scratch);
+    positions_ = arena.take<uint>(lined_up, Use::scratch);
+    places_ = arena.take<uint>(lined_up, Use::scratch);
+    parents_ = arena.take<uint>(is_in_order_ ? 0 : inner + leaves_, Use::scratch);
+    met_ = arena.take<uint>(is_in_order_ ? 0 : inner, Use::scratch);
+    leaf_counts_ = arena.take<uint>(is_in_order_ ? 0 : 2 * inner, Use::scratch);
     marks_ = arena.take<uint>(words, Use::scratch);
     counts_ = arena.take<uint>(words, Use::scratch);
     states_ = arena.take<std::uint64_t>(divided_up(static_cast<uint>(words), counted_words),
@@ -63,6 +74,7 @@ void Collapse::prepare(const cl::CommandQueue& queue)
 {
     states_.upload(queue, std::vector<std::uint64_t>(states_.size()));
     tiles_taken_.upload(queue, std::vector<uint>(1));
+    met_.upload(queue, std::vector<uint>(met_.size()));
     epoch_ = 0;
 }
 
@@ -75,14 +87,22 @@ void Collapse::enqueue(const DeviceTree& tree, Queue& queue)
                      collapse_group, static_cast<std::int64_t>(bytes));
     };
     const auto words = static_cast<uint>(marks_.size());
-    launch(ranges_, 2 * ends_.bytes(), ends_, marks_, words);
-    launch(mark_, ends_.bytes(), ends_, marks_, words_);
+    if (is_in_order_) {
+        launch(ranges_, 2 * ends_.bytes(), ends_, marks_, words);
+    } else {
+        launch(line_up_[0], parents_.bytes() + ends_.bytes(), parents_, ends_, marks_, words);
+        launch(line_up_[1], 0, objects_, parents_);
+        launch(line_up_[2], parents_.bytes() + leaf_counts_.bytes(), parents_, met_, leaf_counts_);
+        launch(line_up_[3], parents_.bytes() + leaf_counts_.bytes() + ends_.bytes(), parents_,
+               leaf_counts_, positions_, places_, ends_);
+    }
+    launch(mark_, ends_.bytes(), positions_, ends_, marks_, words_);
     const std::size_t groups = device_.lets_groups_wait() ? states_.size() : 1;
     queue.launch(set_arguments(count_, marks_, counts_, words, states_, ++epoch_, tiles_taken_),
                  groups * counting_group, counting_group,
                  static_cast<std::int64_t>(2 * counts_.bytes()));
-    launch(fill_, ends_.bytes(), objects_, ends_, marks_, counts_, words_, lists_, children_,
-           child_ends_, room(), roots_, child_count_, tiles_taken_);
+    launch(fill_, ends_.bytes(), objects_, positions_, ends_, marks_, counts_, words_, lists_,
+           children_, child_ends_, room(), roots_, child_count_, tiles_taken_);
 }
 
 bool Collapse::had_room_for(std::uint64_t children)

@@ -16,7 +16,7 @@ public:
     /// Compiles for this tree. `room` is the first capacity in children, or 0.
     Collapse(Programs& programs, const DeviceTree& tree, std::size_t room);
 
-    /// Takes all memory: 5 bytes a leaf or more, and 36 a child.
+    /// Takes all memory: 5 bytes a leaf or more, of a tree whose leaves are not in its order 29 more, and 36 a child.
     void plan(Arena& arena);
 
     /// Clears what enqueue() expects clear in new memory. Waits.
@@ -36,16 +36,20 @@ public:
     const Buffer<uint>& child_ends() const { return child_ends_; }
     const Buffer<cl_uint2>& roots() const { return roots_; }
     const Buffer<uint>& child_count() const { return child_count_; }
+    const Buffer<uint>& places() const { return places_; }
     uint room() const { return static_cast<uint>(room_); }
 
 private:
     const Device& device_;
-    bool is_numbered_by_range_;
+    bool is_in_order_, is_numbered_by_range_;
     uint leaves_, objects_, lists_, words_;
     std::size_t child_bytes_, room_;
     cl::Kernel ranges_, mark_, count_, fill_;
+    std::vector<cl::Kernel>
+        line_up_;     ///< in place of `ranges_` if leaves are not in the tree's order
     uint epoch_ = 0;  ///< of the last look-back
     Buffer<cl_uint2> roots_;
+    Buffer<uint> positions_, places_, parents_, met_, leaf_counts_;  ///< line_up.cl
     Buffer<uint> ends_, marks_, counts_, child_ends_, child_count_, tiles_taken_;
     Buffer<std::uint64_t> states_;
     Buffer<std::byte> children_;

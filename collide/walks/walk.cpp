@@ -46,8 +46,8 @@ public:
 private:
     std::string objection(const DeviceTree& tree) const override
     {
-        if (by_ == By::block && (tree.child_bits() != 1 || !tree.is_in_order()))
-            return "block needs a binary tree with its leaves in order";
+        if (by_ == By::block && tree.child_bits() != 1)
+            return "block needs a binary tree";
         return {};
     }
 
@@ -205,7 +205,7 @@ private:
             bind(walk_, input, own_, tasks_within, between_, between_room, next_counters_,
                  static_cast<uint>(next_counters_.size()), collapse_->children(),
                  collapse_->child_ends(), collapse_->roots(), collapse_->child_count(),
-                 collapse_->room());
+                 collapse_->room(), collapse_->places());
         else if (zeroes_next_)
             bind(walk_, input, own_, tasks_within, between_, between_room, next_counters_,
                  static_cast<uint>(next_counters_.size()));

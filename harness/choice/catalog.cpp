@@ -93,7 +93,7 @@ constexpr ColliderEntry colliders[] = {
      make_bvtt},
     {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
      make_group},
-    {"block", "blocks of neighbouring leaves against blocks, then their leaves: implicit trees",
+    {"block", "blocks of neighbouring leaves against blocks, then their leaves: binary trees",
      make_block},
     {.name = "front",
      .summary = "where the frame before stopped, moved to where this one does, over refitted boxes",

@@ -20,9 +20,10 @@ TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
 
 TEST(Block, FindsTheOraclesPairsInTreesThatItCollapses)
 {
-    // Sizes at and next to those of classes of wide nodes: 32, 512 and 8192 leaves. Nodes are numbered in three ways.
+    // Sizes at and next to those of classes of wide nodes: 32, 512 and 8192 leaves. Nodes are numbered in three ways, and leaves of
+    // `hploc` are not in the order of the tree.
     for (const std::size_t size : {2u, 32u, 33u, 512u, 513u, 8193u})
-        for (const char* builder : {"karras", "apetrei", "lbvh-levels"}) {
+        for (const char* builder : {"karras", "apetrei", "lbvh-levels", "hploc"}) {
             SCOPED_TRACE(std::to_string(size) + " triangles, " + builder);
             for (const std::size_t capacity : {0u, 1u}) {
                 const auto block =
@@ -43,8 +44,9 @@ TEST(Block, FindsTheOraclesPairsInATreeWhoseNodesHaveALeafAndTheRest)
     for (const bool keep_adjacent : {true, false}) {
         const auto block =
             made("block", {.keep_adjacent = keep_adjacent, .form = KernelForm::groups});
-        expect_oracles_pairs(*block, Standing(mesh, "karras", {.order = "morton63"}),
-                             keep_adjacent);
+        for (const char* builder : {"karras", "hploc"})
+            expect_oracles_pairs(*block, Standing(mesh, builder, {.order = "morton63"}),
+                                 keep_adjacent);
     }
 }
 
@@ -64,7 +66,7 @@ TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
     std::vector<FaceRange> objects;
     for (uint k = 0; k < 40; ++k)
         objects.push_back({k, 1});
-    for (const char* builder : {"oibvh-multi", "apetrei-fused"})
+    for (const char* builder : {"oibvh-multi", "apetrei-fused", "hploc"})
         for (const bool is_sorted : {false, true}) {
             const auto block = made("block", {.form = KernelForm::groups});
             const Standing standing(mesh, builder, {.sorted_leaves = is_sorted}, objects);

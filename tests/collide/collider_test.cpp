@@ -156,19 +156,17 @@ TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
         EXPECT_THROW(made("leaf", {.group_size = group_size}), BadUsage);
 }
 
-TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryOnesInOrderAndFrontLeafBinaryOnes)
+TEST(Colliders, TakeEveryTreeOnADeviceButBlockAndFrontLeafBinaryOnesOnly)
 {
     const Mesh mesh = crowded_mesh(20);
     for (const BuilderEntry& builder : device_builders()) {
         const Standing standing(mesh, builder.make);
         const auto& tree = dynamic_cast<const DeviceTree&>(*standing.tree);
-        const bool is_binary = tree.child_bits() == 1, has_blocks = tree.is_in_order() && is_binary;
+        const bool is_binary = tree.child_bits() == 1;
         for (const ColliderEntry& entry : box_colliders(true)) {
             const auto collider = entry.make(session().programs(), {});
-            EXPECT_EQ(collider->refusal(*standing.tree).empty(), entry.name == "block" ? has_blocks
-                                                                 : entry.name == "front-leaf"
-                                                                     ? is_binary
-                                                                     : true)
+            const bool is_for_binary = entry.name == "block" || entry.name == "front-leaf";
+            EXPECT_EQ(collider->refusal(*standing.tree).empty(), is_binary || !is_for_binary)
                 << entry.name << " over " << builder.name;
         }
     }
