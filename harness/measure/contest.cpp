@@ -15,8 +15,8 @@
 namespace bvhbench {
 namespace {
 
-constexpr const char* stages[] = {"bounds", "codes",    "sort",  "order", "gather", "hierarchy",
-                                  "ropes",  "collapse", "broad", "copy",  "narrow"};
+constexpr const char* stages[] = {"bounds",    "codes", "sort",     "order", "gather", "hierarchy",
+                                  "to_device", "ropes", "collapse", "broad", "copy",   "narrow"};
 
 std::string numbers(auto... values) { return (... + (' ' + std::to_string(values))); }
 

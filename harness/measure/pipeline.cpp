@@ -54,6 +54,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     , choice_(builder)
     , update_(collider.update)
     , one_tree_(one_tree_for(session, collider, input))
+    , uploaded_(session.device())
     , updates_(one_tree_ ? 1 : input.objects.size(), TreeUpdate::rebuild)
 {
     const bool on_cpu = session.device().is_cpu() || !find_collider(collider.name).needs_tree;
@@ -90,8 +91,19 @@ void Pipeline::reserve_for(const Input& input)
         const Input& of_trees = one_tree_ ? one_tree_->built(input) : input;
         builder_->reserve_objects(object_sizes(of_trees));
         session_.build_once(*builder_, of_trees, Start::from_triangles, &tree_);
+        take_tree(*tree_, of_trees);
+        session_.queue().forget();
     }
     collider_->reserve(tree_, one_tree_ ? one_tree_->queried(input) : input);
+}
+
+/// Queries will be of `tree`, or of its copy on the device if it is on the host.
+void Pipeline::take_tree(const Tree& tree, const Input& of_trees)
+{
+    tree_ = &tree;
+    if (dynamic_cast<const DeviceTree*>(&tree) == nullptr)
+        session_.queue().on_host(
+            "to_device", [&] { tree_ = &uploaded_.copy(tree, of_trees, session_.queue()); });
 }
 
 void Pipeline::begin_frame(std::span<const Motion> motions)
@@ -183,7 +195,8 @@ void Pipeline::enqueue_query(const Input& input)
     const Input& of_trees = one_tree_ ? one_tree_->built(input) : input;
     if (builder_ != nullptr &&
         std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) < std::ssize(updates_))
-        tree_ = entering_ ? &builder_->build(of_trees, queue) : &builder_->update(of_trees, queue);
+        take_tree(entering_ ? builder_->build(of_trees, queue) : builder_->update(of_trees, queue),
+                  of_trees);
     collider_->query(tree_, one_tree_ ? one_tree_->queried(input) : input, queue);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "baselines/radix/uploaded.h"
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
 #include "harness/choice/catalog.h"
@@ -75,6 +76,7 @@ private:
 
     bool skips(SkipRule rule) const { return (rules_off_ & rule) == 0; }
     void reserve_for(const Input& input);
+    void take_tree(const Tree& tree, const Input& of_trees);
     void choose_entering(const Input& input);
     bool queries() const { return !entering_ || entering_->has_pairs(); }
     std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
@@ -91,6 +93,7 @@ private:
     std::optional<OneTree> one_tree_;  ///< if one tree is over several objects
     /// This pipeline's own builder, so that its tree persists between frames; null if the collider needs none.
     std::unique_ptr<Builder> builder_;
+    UploadedTree uploaded_;  ///< of a builder whose trees are on the host
     const Tree* tree_ = nullptr;
     std::vector<TreeUpdate> updates_;  ///< planned update of each tree
     std::unique_ptr<Collider> collider_;

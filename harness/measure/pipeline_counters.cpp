@@ -76,13 +76,14 @@ std::map<std::string, double> Pipeline::counters() const
     put("query_bytes", memory);
     if (builder_ != nullptr) {
         const Footprint tree = builder_->reserved();
-        put("tree_bytes", tree.tree_bytes);
+        const std::size_t uploaded = uploaded_.reserved().total();
+        put("tree_bytes", tree.tree_bytes + uploaded);
         put("scratch_bytes", tree.scratch_bytes);
         put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
         put("refitted_objects_count", updated(TreeUpdate::refit));
         put("kept_objects_count", updated(TreeUpdate::keep));
         put("sorts_count", updated(TreeUpdate::rebuild) > 0 ? 1 : 0);
-        memory += tree.total();
+        memory += tree.total() + uploaded;
     }
     if (entering_)
         put("entered_count", entering_->input.triangle_count());
