@@ -110,6 +110,8 @@ Experiment experiment_of(const Json& json, bool quick)
     if (json.contains("doubles"))
         experiment.doubles = doubles_called(text_at(json, "doubles"));
     experiment.sampling = sampling_of(json);
+    if (json.contains("quality"))
+        experiment.quality = truth_at(json, "quality");
     if (collides)
         experiment.collisions = collisions_of(json, experiment.name, quick);
     for (CollideTask& task : experiment.collisions)
@@ -125,8 +127,6 @@ Experiment experiment_of(const Json& json, bool quick)
         experiment.start = start_of(json);
     if (json.contains("operations"))
         experiment.operations = operations_of(json["operations"]);
-    if (json.contains("quality"))
-        experiment.quality = truth_at(json, "quality");
     if (!json.contains("quick"))
         return experiment;
     std::vector<std::string_view> keys = {"scenes", "builders", "samples", "warm_up"};

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "harness/judge/metrics.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/frame_verdict.h"
 #include "process/watchdog.h"
@@ -24,6 +25,35 @@ std::vector<StageTime> prepare(Session& session, PipelineState& one, const Frame
     std::vector<StageTime> stages;
     cell.first.run_ns = host_ns([&] { stages = one.pipeline->prepare(frame.input); });
     return stages;
+}
+
+/// Writes the quality of the tree that the pipeline has queried to the cell. If an earlier cell has a tree of the same builder and
+/// order, it is that one's: where leaf boxes are stored changes no tree.
+void count_quality_of_query(const Pipeline& pipeline, const Input& input, const NodeCosts& costs,
+                            std::span<const Measurement> earlier, Cell& cell)
+{
+    if (pipeline.tree() == nullptr)
+        return;
+    if (input.objects.size() > 1) {
+        cell.left_out["sah_cost"] = cell.left_out["epo"] = "the frame has several trees";
+        return;
+    }
+    for (const Measurement& other : earlier) {
+        BuilderChoice same = other.cell.builder;
+        same.sorted_leaves = cell.builder.sorted_leaves;
+        if (same != cell.builder || !other.cell.counters.contains("sah_cost"))
+            continue;
+        for (const char* counter : {"sah_inner", "sah_leaf", "sah_cost", "sibling_overlap",
+                                    "depth_max", "depth_mean", "epo_inner", "epo_leaf", "epo"})
+            if (const auto found = other.cell.counters.find(counter);
+                found != other.cell.counters.end())
+                cell.counters.insert(*found);
+        return;
+    }
+    const HostTree tree = pipeline.tree()->to_host_tree();
+    count_quality(cell, tree, costs);
+    if (!input.is_swept())
+        count_end_point_overlap(cell, tree, input.points, input.faces, costs);
 }
 
 }  // namespace
@@ -61,6 +91,9 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             cell.counters = one.pipeline->counters();
             cell.counters.merge(one.pipeline->transfers(input));
             verdict.judge(*one.pipeline, cell, found);
+            if (task.quality)
+                count_quality_of_query(*one.pipeline, input, *task.quality,
+                                       std::span(measurements).first(k), cell);
         });
         measurement.once = [&] {
             const watchdog::Watch watch;

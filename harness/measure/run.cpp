@@ -207,16 +207,19 @@ void Run::measure(const PlannedScene& planned, const CellFilter& filter, Progres
     if (planned.cluster != nullptr)
         cluster(*planned.cluster);
     else if (planned.collides != nullptr)
-        collisions(*planned.collides, filter, progress);
+        collisions(experiment, *planned.collides, filter, progress);
     else
         scene(experiment, planned.name, chosen(experiment, planned.name, filter), progress);
 }
 
-void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
+void Run::collisions(const Experiment& experiment, CollideTask task, const CellFilter& filter,
+                     Progress& progress)
 {
     const std::string title = task.experiment + ": " + task.scene;
     task.number = std::to_string(number_);
     task.pipelines = chosen(task, filter);
+    if (experiment.quality)
+        task.quality = costs_;
     task.note = [&](const std::string& what, double share) {
         progress.note(title + ", " + what, share);
     };

@@ -43,7 +43,8 @@ public:
 
 private:
     void measure(const PlannedScene& planned, const CellFilter& filter, Progress& progress);
-    void collisions(CollideTask task, const CellFilter& filter, Progress& progress);
+    void collisions(const Experiment& experiment, CollideTask task, const CellFilter& filter,
+                    Progress& progress);
     void cluster(const ClusterTask& task);
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
