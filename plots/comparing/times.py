@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy
 
+from ..read import student
 from ..read.cells import median
-from . import student
 
 SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
 FEWEST_SAMPLES = 9  # of each side, for a verdict

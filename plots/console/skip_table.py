@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from ..read import results, savings
 from ..read.cells import grouped
 from ..read.savings import Saving
-from ..words.tables import Table, duration
+from ..words.tables import Table, duration, span
 from . import spread
 
 EXPERIMENT = "skips"
@@ -55,11 +55,6 @@ def by_rule(found: list[Saving]) -> str:
         table.row(rule + (", forced" if is_forced else ""), scene, str(len(those)), work, span([100 * one.share(work) for one in those], 0) + " %",
                   span([savings.times(one) for one in those], 2))
     return f"by rule:\n{table.text()}" if table.rows else ""
-
-
-def span(values: list[float], digits: int) -> str:
-    ends = [f"{round(value, digits) + 0.0:.{digits}f}" for value in (min(values), max(values))]
-    return " to ".join(dict.fromkeys(ends))
 
 
 def nothing(idle: Iterable[list[Saving]]) -> str:

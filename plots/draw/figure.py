@@ -92,8 +92,9 @@ def ticks_between(low: float, high: float, most: int) -> list[float]:
     return found
 
 
-def round_ticks(axis: Axis, low: float, high: float, most: int) -> None:
-    """Labels a logarithmic axis with at most `most` round numbers."""
+def log_axis(axis: Axis, low: float, high: float, most: int) -> None:
+    """Sets a logarithmic axis of this range, labelled with at most `most` round numbers."""
+    axis.axes.set(**{f"{axis.axis_name}scale": "log", f"{axis.axis_name}lim": (low, high)})
     axis.set_major_locator(FixedLocator(ticks_between(low, high, most)))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1e6:,g} M" if value >= 1e6 else f"{value:,g}"))

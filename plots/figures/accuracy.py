@@ -121,7 +121,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
             points = [Point(1e3 * build_s(cell), scale * cell.counters[measure], cell.accuracy["method"])
                       for cell in group]
             axes = grid[row][column]
-            figure.round_ticks(axes.xaxis, *log_times(axes, points), 3 if len(inputs) > 3 else 5)
+            log_times(axes, points, 3 if len(inputs) > 3 else 5)
             draw_points(axes, "codes", points)
             axes.set_ylim(0, 1.1 * max(point.error for point in points))
             if row == 0:

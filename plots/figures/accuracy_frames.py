@@ -65,8 +65,7 @@ def draw_scene(axes: plt.Axes, settings: list[Setting]) -> None:
             axes.errorbar(middle, height, xerr=[[middle - low], [high - middle]], color=seen.colour, marker=seen.marker,
                           markerfacecolor="white", elinewidth=0.8, zorder=3, **MARK)
     low, high = min(one.time.p10 for one in settings) / 1.2, max(one.time.p90 for one in settings) * 1.2
-    axes.set(xscale="log", xlim=(low, high))
-    figure.round_ticks(axes.xaxis, low, high, 6)
+    figure.log_axis(axes.xaxis, low, high, 6)
     axes.grid(axis="x")
 
 

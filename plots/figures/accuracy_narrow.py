@@ -81,9 +81,7 @@ def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     methods = by_method(cells)
     drawing, [[errors, times]] = figure.grid(1, 2, 1.5 + ROW * len(methods), sharey=True, width_ratios=(3, 2))
     from_zero(errors.xaxis, [wrong(cell) for cell in cells], 1e-3, 1, percent, 4)
-    low, high = min(map(ns_a_pair, cells)) / 2, max(map(ns_a_pair, cells)) * 1.5
-    times.set(xscale="log", xlim=(low, high))
-    figure.round_ticks(times.xaxis, low, high, 5)
+    figure.log_axis(times.xaxis, min(map(ns_a_pair, cells)) / 2, max(map(ns_a_pair, cells)) * 1.5, 5)
     draw_spread(errors, methods, wrong, percent)
     draw_spread(times, methods, ns_a_pair, ns)
     errors.set_yticks(range(len(methods)), list(methods))

@@ -63,12 +63,9 @@ def draw_points(axes: plt.Axes, axis: str, points: list[Point]) -> None:
                    lambda is_best: {"clip_on": False, "zorder": 4 if is_best else 3})
 
 
-def log_times(axes: plt.Axes, points: list[Point]) -> tuple[float, float]:
-    """Sets a logarithmic axis of the points' times and returns its range."""
-    low, high = min(point.time for point in points) / 1.3, max(point.time for point in points) * 1.3
-    axes.set(xscale="log", xlim=(low, high))
-    figure.round_ticks(axes.xaxis, low, high, 6)
-    return low, high
+def log_times(axes: plt.Axes, points: list[Point], most: int = 6) -> None:
+    """Sets a logarithmic axis of the points' times, with at most `most` labels."""
+    figure.log_axis(axes.xaxis, min(point.time for point in points) / 1.3, max(point.time for point in points) * 1.3, most)
 
 
 def from_zero(axis: Axis, errors: list[float], least: float, most: float, text: Callable[[float], str], ticks: int) -> None:

@@ -39,8 +39,7 @@ def scale(axis: Axis, values: list[float], most: int) -> None:
     """Sets a logarithmic axis with room for markers and numbers."""
     low, high = min(values), max(values)
     low, high = low / 1.15 / (high / low) ** 0.1, high * 1.15 * (high / low) ** 0.1
-    axis.axes.set(**{f"{axis.axis_name}scale": "log", f"{axis.axis_name}lim": (low, high)})
-    figure.round_ticks(axis, low, high, most)
+    figure.log_axis(axis, low, high, most)
 
 
 def draw_points(axes: plt.Axes, points: list[Point], best: list[Point]) -> None:

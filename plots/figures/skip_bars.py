@@ -52,10 +52,7 @@ def draw(run: results.Run) -> plt.Figure:
         panels[0].set_ylim(len(rules) - 0.5, -0.5)
         panels[0].set_title(f"{scene}: {those[0].first.triangles:,} triangles", loc="left")
     ratios = [savings.times(one) for one in found if one.skips_something] or [1.0]
-    low, high = min(0.8, *ratios) / 1.1, max(1.25, *ratios) * 1.1
-    grid[-1, 0].set_xscale("log")
-    grid[-1, 0].set_xlim(low, high)
-    figure.round_ticks(grid[-1, 0].xaxis, low, high, 8)
+    figure.log_axis(grid[-1, 0].xaxis, min(0.8, *ratios) / 1.1, max(1.25, *ratios) * 1.1, 8)
     grid[-1, 0].set_xlabel("time of a frame without the rule over with it")
     grid[-1, 1].set_xlim(min(0, *(100 * one.share(one.work) for one in found)) - 4, 104)
     grid[-1, 1].set_xlabel("avoided work in %")

@@ -2,7 +2,7 @@
 import itertools
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from . import narrowing, terminal
 
@@ -113,6 +113,14 @@ def whole(value: float | None) -> str:
 def fixed(value: float | None, digits: int = 2) -> str:
     """Returns `digits` digits after the point, or blank for an unknown value."""
     return "" if value is None or math.isnan(value) else f"{value:.{digits}f}"
+
+
+def span(values: Collection[float], digits: int, between: str = " to ") -> str:
+    """Returns the least and the largest value as "0.98 to 1.02", or one number where both look the same; blank for unknown ones."""
+    if any(map(math.isnan, values)):
+        return ""
+    ends = [f"{round(value, digits) + 0.0:.{digits}f}" for value in (min(values), max(values))]  # + 0.0 turns -0.0 into 0
+    return between.join(dict.fromkeys(ends))
 
 
 def exact(value: float) -> str:

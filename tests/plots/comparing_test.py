@@ -13,10 +13,10 @@ import numpy
 
 from base import Raw  # first: it adds the source root to sys.path
 
-from plots.comparing import axes, comparison, comparison_text, sides, student, times
+from plots.comparing import axes, comparison, comparison_text, sides, times
 from plots.comparing.refusals import Rules, require_comparable
 from plots.files.output import WrongUsage
-from plots.read import counters
+from plots.read import counters, student
 from plots.read.cells import Cell
 from plots.read.ranking import rank_below
 

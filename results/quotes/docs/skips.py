@@ -1,20 +1,15 @@
-from plots.evidence.quotes import Document, File, ends, us
+from plots.evidence.quotes import Document, File, us
 from plots.read import savings
 from plots.read.savings import Saving
-
-
-def spread(values: list[float], digits: int) -> str:
-    """Returns "0.98-1.02", or one number where both would be the same."""
-    low, high = (f"{round(value, digits) + 0.0:.{digits}f}" for value in ends(values))  # + 0.0 turns -0.0 into 0
-    return low if low == high else f"{low}-{high}"
+from plots.words.tables import span
 
 
 def entries(found: list[Saving]) -> tuple[str, str]:
     """Returns the share of the work avoided and the ratio of times, over pipelines."""
     if not (those := [one for one in found if one.skips_something]):
         return "nothing", ""
-    return (spread([100 * one.share(one.work) for one in those], 0),
-            spread([savings.times(one) for one in those], 2) + "*" * all(one.is_forced for one in those))
+    return (span([100 * one.share(one.work) for one in those], 0, "-"),
+            span([savings.times(one) for one in those], 2, "-") + "*" * all(one.is_forced for one in those))
 
 
 def quotes(doc: Document) -> None:
