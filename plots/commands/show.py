@@ -1,6 +1,6 @@
 """bvhbench show: prints a result file as tables."""
-from ..console import (accuracy_table, best_table, builder_table, cell, cells, frame_table, rank_table, run as run_page, skip_table,
-                       stress_table, swept_table, trees)
+from ..console import (accuracy_table, best_table, builder_table, cell, cells, effects_table, frame_table, rank_table, run as run_page,
+                       skip_table, stress_table, swept_table, trees)
 from ..program import command
 from ..read import input_files, rank_files, ranking_text, results
 
@@ -45,5 +45,5 @@ def pages(run: results.Run) -> str:
     if all(one.experiment == skip_table.EXPERIMENT for one in run.all_cells):
         return cells.text(run) + skip_table.of_scenes(run)
     pages_of = (cells.text, builder_table.text, frame_table.text, swept_table.text, trees.refits, trees.quality, trees.roofline, trees.yardstick, rank_table.text, skip_table.of_scenes,
-                best_table.families_of)
+                best_table.families_of, effects_table.text)
     return "".join(page(run) for page in pages_of)

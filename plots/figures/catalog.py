@@ -5,7 +5,7 @@ import pathlib
 
 from ..draw import figure, style
 from ..read import input_files, results
-from . import (accuracy, family_bars, fig10, fig13, fig8, frame_bars, overview, pareto_orders, rank_curves, roofline, scaling,
+from . import (accuracy, effects, family_bars, fig10, fig13, fig8, frame_bars, overview, pareto_orders, rank_curves, roofline, scaling,
                skip_bars, stress_map, sweeps, swept_bars, table1, table2, table4)
 
 # The figure of each experiment. To add a figure, add its line here.
@@ -26,6 +26,7 @@ FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
                "fig10": fig10.draw},
     "table3": {"table3": functools.partial(table2.draw, table="table3")},
     "swept": {"swept": swept_bars.draw},
+    "effects": {"effects": effects.draw},
     skip_bars.EXPERIMENT: {skip_bars.EXPERIMENT: skip_bars.draw},
     **{name: {name: draw} for name, draw in (frame_bars.FIGURES | family_bars.FIGURES).items()},
 }

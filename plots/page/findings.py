@@ -14,8 +14,9 @@ from . import cell_data
 from .cell_data import WITHOUT_TIMES, library_of, state_of, who
 
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "harness" / "experiments"
-# Experiments and axes of accuracy that do not ask who is soonest; None: they ask only whether answers are right.
-OBJECTIVES = {"agreement": None, "equality": None, "smoke": None, "skips": None, "table4": "cost", "fig13": "cost", "sums": "error"}
+# Experiments and axes of accuracy that do not ask who is soonest; None: they rank nothing.
+OBJECTIVES = {"agreement": None, "equality": None, "smoke": None, "skips": None, "effects": None, "table4": "cost", "fig13": "cost",
+              "sums": "error"}
 # Words of an objective: "A {is soonest} on S: 1.00 ms; the next {takes} 1.20 times {as long}".
 WORDS = {"frame": ("is soonest", "takes", "as long"), "cost": ("has the lowest surface area cost", "costs", "as much"),
          "error": ("errs least", "errs by", "as much")}

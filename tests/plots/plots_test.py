@@ -45,7 +45,7 @@ class Scripts(InFolder):
     def test_all_draws_every_figure_and_one_alone_is_the_same_byte_for_byte(self) -> None:
         axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept", "frames", "impacts")
         figures = {name: (name,) for name in ("table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress", "swept", "skips",
-                                              "rebuild", "pairs", "families", "quality", "table1")}
+                                              "rebuild", "pairs", "families", "quality", "table1", "effects")}
         figures |= {"accuracy": tuple(f"accuracy-{axis}" for axis in axes), "table2": ("table2", "table2-fig9", "table2-fig10")}
         files = [*figures, "headlines"] if ALL_CASES else ["table1", "table2", "headlines"]  # .ci/run draws all by `reproduce all`
         self.made("figures", *(GOLDEN / f"{file}.json" for file in files), "--out", self.folder / "out")

@@ -1,0 +1,65 @@
+"""Prints what each choice decides of a frame's time, and which measure of a tree predicts a query's (read/effects.py)."""
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy
+
+from ..read import effects, results
+from ..read.cells import Cell
+from ..words import terminal
+from ..words.tables import Table, counted, fixed, percent, span
+
+TITLES = tuple(title for part in ("frame", "query") for title in (part, "95 %", "scenes"))  # of ratios
+
+
+def text(run: results.Run) -> str:
+    """Returns the tables; empty if the file has no frame of the experiment."""
+    cells = effects.cells_of(run.all_cells)
+    if not cells:
+        return ""
+    missing = [f"{scene} does not count in shares: {counted(len(lacks), 'cell')} missing, as {', '.join(lacks[0])}"
+               for scene, lacks in effects.lacking(cells).items() if lacks]
+    return (headed("time over the reference's, all else equal; trees with one way to store leaves are held against sorted ones",
+                   ("<choice", "<level", "<against", *TITLES, "pairs"), rows_of_ratios(cells))
+            + headed("shares of the sum of squares of log times within scenes", ("<decided by", "frame", "query"),
+                     rows_of_shares(cells))
+            + "".join(f"{terminal.prose(line)}\n" for line in missing)
+            + headed("rank correlation with the query's time, median and range of scenes; without wide trees unless said",
+                     titles_of_ranks(cells), rows_of_ranks(cells)))
+
+
+def headed(heading: str, titles: Sequence[str], rows: Iterable[list[str]]) -> str:
+    table = Table(*titles)
+    for row in rows:
+        table.row(*row)
+    return f"{terminal.prose(heading)}:\n{table.text()}" if table.rows else ""
+
+
+def rows_of_ratios(cells: list[Cell]) -> Iterator[list[str]]:
+    """Yields a level's row: choice, level and reference; of frame and query the geometric mean of the ratios, its interval, and the
+    range of scenes; the number of pairs of queries."""
+    for one in effects.effects(cells):
+        columns = [text for ratio in (one.frame, one.query) for text in (columns_of(ratio) if ratio else [""] * 3)]
+        yield [one.choice, one.level, effects.CHOICES[one.choice], *columns, str(one.query.pairs)]
+
+
+def columns_of(ratio: effects.Ratio) -> list[str]:
+    return [fixed(ratio.mean), span(ratio.interval, 2, "-"), span(ratio.by_scene.values(), 2, "-")]
+
+
+def rows_of_shares(cells: list[Cell]) -> Iterator[list[str]]:
+    """Yields the shares of each choice and of each two, of frame and query; none if every scene lacks a combination."""
+    frame, query = (effects.shares(cells, of_query) for of_query in (False, True))
+    for name in frame:
+        yield [name, percent(frame[name]), percent(query[name])]
+
+
+def titles_of_ranks(cells: list[Cell]) -> list[str]:
+    return ["<measure", *dict.fromkeys(cell.collider or "" for cell in cells), effects.ALL]
+
+
+def rows_of_ranks(cells: list[Cell]) -> Iterator[list[str]]:
+    """Yields a measure's row: of each collider the median of the rank correlations over scenes, and their range."""
+    for by in effects.PREDICTORS:
+        if found := {collider: list(there.values()) for collider, there in effects.correlations(cells, by).items()}:
+            yield [by.name, *(f"{numpy.median(found[collider]):.2f} ({span(found[collider], 2)})" if collider in found else ""
+                              for collider in titles_of_ranks(cells)[1:])]
