@@ -1,6 +1,8 @@
+from plots.console import effects_table
 from plots.evidence.quotes import ONE_SET, Document, File, best, later_ms, ratios, us
 from plots.read import results
 from plots.read.cells import Cell
+from plots.read.effects import cells_of, shares
 
 BLOCK, GROUP, LEAF = (f"{name} over oibvh-multi (hilbert30, sorted leaves)" for name in ("block", "group", "leaf"))
 BVTT, CDK18 = "bvtt (jump 2) over oibvh-multi", "bvtt (jump 1) over perfect"
@@ -76,6 +78,18 @@ def rebuild(doc: Document) -> None:
     doc.table("rebuild", "< pipeline | H200, ms | PoCL, ms | memory, MB", (
         [label, *(later_ms(file.frames(scene, asked)) for file in (h200, pocl)), most_mb(h200.frames(scene, asked))]
         for label, asked in rows.items()))
+
+
+def effects(doc: Document) -> None:
+    cells = cells_of(File("h200/effects").cells)
+    doc.table("effects", f"< choice, against | < level | {' | '.join(effects_table.TITLES)}", (
+        [f"{choice}, `{reference}`", f"`{level}`", *columns]
+        for choice, level, reference, *columns, _ in effects_table.rows_of_ratios(cells)))
+    doc.table("predict", "< measure | " + " | ".join(effects_table.titles_of_ranks(cells)[1:]), effects_table.rows_of_ranks(cells))
+    for of_query, what in ((False, "a frame's"), (True, "a query's")):
+        by = shares(cells, of_query)
+        doc.says(f"of {what} time the collider decides {{}} %, the builder {{}} %, both together {{}} %, order and leaves {{}} %",
+                 *(100 * by[name] for name in ("collider", "builder", "builder × collider")), 100 * (by["order"] + by["leaves"]))
 
 
 def quotes(doc: Document) -> None:
