@@ -1,4 +1,5 @@
 """Prints what each choice decides of a frame's time, and which measure of a tree predicts a query's (read/effects.py)."""
+import itertools
 from collections.abc import Iterable, Iterator, Sequence
 
 import numpy
@@ -23,7 +24,7 @@ def text(run: results.Run) -> str:
             + headed("shares of the sum of squares of log times within scenes", ("<decided by", "frame", "query"),
                      rows_of_shares(cells))
             + "".join(f"{terminal.prose(line)}\n" for line in missing)
-            + headed("rank correlation with the query's time, median and range of scenes; without wide trees unless said",
+            + headed("rank correlation with the time of the stage broad, median and range of scenes",
                      titles_of_ranks(cells), rows_of_ranks(cells)))
 
 
@@ -54,12 +55,12 @@ def rows_of_shares(cells: list[Cell]) -> Iterator[list[str]]:
 
 
 def titles_of_ranks(cells: list[Cell]) -> list[str]:
-    return ["<measure", *dict.fromkeys(cell.collider or "" for cell in cells), effects.ALL]
+    return ["<measure", "<of", *dict.fromkeys(cell.collider or "" for cell in cells)]
 
 
 def rows_of_ranks(cells: list[Cell]) -> Iterator[list[str]]:
-    """Yields a measure's row: of each collider the median of the rank correlations over scenes, and their range."""
-    for by in effects.PREDICTORS:
-        if found := {collider: list(there.values()) for collider, there in effects.correlations(cells, by).items()}:
-            yield [by.name, *(f"{numpy.median(found[collider]):.2f} ({span(found[collider], 2)})" if collider in found else ""
-                              for collider in titles_of_ranks(cells)[1:])]
+    """Yields the row of a measure and a kind of trees: of each collider the median of the rank correlations over scenes, and their range."""
+    for measure, kind in itertools.product(effects.MEASURES, effects.KINDS):
+        if found := {collider: list(there.values()) for collider, there in effects.correlations(cells, measure, kind).items()}:
+            yield [measure, kind, *(f"{numpy.median(found[collider]):.2f} ({span(found[collider], 2)})" if collider in found else ""
+                                    for collider in titles_of_ranks(cells)[2:])]

@@ -14,13 +14,14 @@ from ..draw import figure, pipelines, style
 from ..read import effects, results
 
 ROW = 0.165  # inches
+# Of kinds of trees: colour, marker, and how far below the middle of a row.
+KINDS = {effects.IMPLICIT: ("#009E73", "s", -0.19), effects.POINTERS: ("#CC79A7", "^", 0.19)}
 # Of the frame and of the query: colour, marker, name, and how far below the middle of a row.
 LOOKS = (("#0072B2", "D", "whole frame", -0.19), ("#D55E00", "o", "query alone", 0.19))
 REMARK = ("Left: cells that differ in one choice alone; geometric means over scenes with Student's 95 % interval. Wide trees, and "
           "those of the host, have one way to store leaves, and are held against sorted leaves; those of the host have no order, "
-          "and only their queries count. Right: Spearman's rank correlation within a scene, over trees, and over trees and "
-          "colliders; a bar is the median. Costs of wide trees are of another kind: they count in the last group alone. "
-          "What does not combine was skipped.")
+          "and only their queries count. Right: Spearman's rank correlation within a scene, over the trees of a kind; a large marker "
+          "is the median. What does not combine was skipped.")
 
 
 def rows_of(axes: plt.Axes, groups: dict[str, list[str]]) -> dict[tuple[str, str], int]:
@@ -56,25 +57,32 @@ def draw_effects(axes: plt.Axes, found: list[effects.Effect]) -> None:
     figure.log_axis(axes.xaxis, min(ends) / 1.2, max(ends) * 1.2, 8)  # intervals of few scenes end at the panel's edge
 
 
-def draw_correlations(axes: plt.Axes, found: dict[str, dict[str, dict[str, float]]]) -> None:
-    places = rows_of(axes, {name: list(there) for name, there in found.items()})
-    for (name, collider), row in places.items():
-        those = list(found[name][collider].values())
-        dots(axes, those, row, "#009E73")
-        axes.plot(numpy.median(those), row, marker="|", color="#009E73", markersize=8, markeredgewidth=1.6, zorder=4)
+def draw_correlations(axes: plt.Axes, cells: list[results.Cell]) -> None:
+    found = {(measure, kind): there for measure in effects.MEASURES for kind in KINDS
+             if (there := effects.correlations(cells, measure, kind))}
+    places = rows_of(axes, {measure: list(dict.fromkeys(collider for (of, _), there in found.items() if of == measure for collider in there))
+                            for measure in dict.fromkeys(measure for measure, _ in found)})
+    for (measure, kind), there in found.items():
+        colour, marker, below = KINDS[kind]
+        for collider, by_scene in there.items():
+            row = places[measure, collider] + below
+            dots(axes, by_scene.values(), row, colour)
+            axes.plot(numpy.median(list(by_scene.values())), row, marker=marker, color=colour, markersize=3.6, zorder=4)
     axes.axvline(0, color="#888888", linewidth=0.8, zorder=1)
-    axes.set(xlim=(-1.05, 1.05), xticks=(-1, -0.5, 0, 0.5, 1), xlabel="rank correlation with the query's time")
+    axes.set(xlim=(-1.05, 1.05), xticks=(-1, -0.5, 0, 0.5, 1), xlabel="rank correlation with the time of `broad`")
+    axes.legend(handles=[Line2D([], [], color=colour, marker=marker, markersize=3.6, linestyle="none", label=kind)
+                         for kind, (colour, marker, _) in KINDS.items()], loc="lower left", bbox_to_anchor=(0, 1), ncols=2,
+                fontsize=style.SMALL, frameon=False, handletextpad=0.3, columnspacing=1)
 
 
 def draw(run: results.Run) -> plt.Figure:
     cells = run.frames(effects.EXPERIMENT)
     if not (ratios := effects.effects(cells)):
         raise results.Refused(f"{run.path}: no cells of {effects.EXPERIMENT} differ from a reference in one choice alone")
-    found = {by.name: there for by in effects.PREDICTORS if (there := effects.correlations(cells, by))}
-    rows = max(len(found) + sum(map(len, found.values())), 16)
+    rows = len(ratios) + len(effects.CHOICES)
     drawing, [[left, right]] = figure.grid(1, 2, 1.0 + ROW * rows, width_ratios=(3, 2))
     draw_effects(left, ratios)
-    draw_correlations(right, found)
+    draw_correlations(right, effects.cells_of(cells))
     handles = [Line2D([], [], color=colour, marker=marker, markersize=3.2, linewidth=1, label=label)
                for colour, marker, label, _ in LOOKS]
     handles.append(Line2D([], [], color="#777777", marker=".", markersize=5, linestyle="none", label="a scene"))

@@ -14,27 +14,19 @@ from .cells import Cell, grouped
 from .ranking import ERROR, FEWEST, Measure
 
 EXPERIMENT = "effects"
-WIDE = "wide trees"  # a family
+# Kinds of trees within which a measure is compared, by their families. Costs of wide trees are of another kind.
+IMPLICIT, POINTERS = "implicit trees", "trees with pointers"
+KINDS = {IMPLICIT: ("implicit trees", "padded implicit trees"), POINTERS: ("radix trees", "clustered trees", "host builders")}
+KINDS["both"] = KINDS[IMPLICIT] + KINDS[POINTERS]
+# Measures of a tree, and their counters.
+MEASURES = {"SAH cost": "sah_cost", "end-point overlap": "epo", "box tests": "box_tests_count"}
 # Each choice, with the level that others are compared with.
 CHOICES = {"builder": "oibvh-single", "order": "hilbert30", "leaves": "sorted", "collider": "block"}
 # Levels of each choice that all combine.
 BALANCED = (("oibvh-single", "perfect", "apetrei-fused", "hploc"), ("morton30", "hilbert30"), ("mesh", "sorted"),
             ("leaf", "group", "block", "bvtt"))
 REST = "the rest"
-ALL = "all colliders"
 Levels = tuple[str, ...]  # one for each choice; "" of a choice that the builder does not have
-
-
-class Predictor(NamedTuple):
-    """A measure of a tree. The costs of wide trees are of another kind than those of binary trees."""
-
-    name: str
-    counter: str
-    of_wide: bool = False  # wide trees count too
-
-
-PREDICTORS = (Predictor("SAH cost", "sah_cost"), Predictor("end-point overlap", "epo"), Predictor("box tests", "box_tests_count"),
-              Predictor("box tests, with wide trees", "box_tests_count", True))
 
 
 @dataclass
@@ -164,14 +156,13 @@ def spearman(points: list[tuple[float, float]]) -> float:
     return float(numpy.corrcoef(*map(ranks, numpy.array(points).T))[0, 1])
 
 
-def correlations(cells: list[Cell], by: Predictor) -> dict[str, dict[str, float]]:
-    """Returns the rank correlation of a measure with the query's time, by collider and scene: over trees, and for ALL over trees
-    and colliders."""
-    those = [cell for cell in cells if by.counter in cell.counters and (by.of_wide or families.of_builder(cell.builder) != WIDE)]
+def correlations(cells: list[Cell], measure: str, kind: str) -> dict[str, dict[str, float]]:
+    """Returns the rank correlation of a measure with the time of the stage `broad`, over the trees of a kind, by collider and scene."""
+    counter = MEASURES[measure]
+    those = [cell for cell in cells if counter in cell.counters and families.of_builder(cell.builder) in KINDS[kind]]
     found: dict[str, dict[str, float]] = {}
-    for collider, own in {**grouped(those, lambda cell: cell.collider or ""), ALL: those}.items():
-        rhos = {scene: spearman([(cell.counters[by.counter], query_ns(cell)) for cell in there])
-                for scene, there in grouped(own, lambda cell: cell.scene).items()}
-        if known := {scene: rho for scene, rho in rhos.items() if not math.isnan(rho)}:
-            found[collider] = known
+    for (collider, scene), there in grouped(those, lambda cell: (cell.collider or "", cell.scene)).items():
+        rho = spearman([(cell.counters[counter], cell.median_ns("broad")) for cell in there])
+        if not math.isnan(rho):
+            found.setdefault(collider, {})[scene] = rho
     return found

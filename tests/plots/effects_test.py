@@ -15,7 +15,7 @@ from plots.draw import style
 from plots.figures import effects as drawing
 from plots.read import effects
 from plots.read.cells import Cell
-from plots.read.effects import BALANCED, PREDICTORS, REST
+from plots.read.effects import BALANCED, IMPLICIT, MEASURES, POINTERS, REST
 
 UNIT = 2**20  # nanoseconds
 USUAL = ("oibvh-single", "hilbert30", "sorted", "block")
@@ -116,19 +116,18 @@ class Ranks(unittest.TestCase):
         self.assertAlmostEqual(effects.spearman([(1, 8), (2, 4), (3, 1)]), -1)
         self.assertTrue(all(map(math.isnan, (effects.spearman([(1, 1), (2, 2)]), effects.spearman([(1, 1), (1, 2), (1, 3)])))))
 
-    def test_correlate_by_collider_without_the_costs_of_wide_trees(self) -> None:
-        builders = ("oibvh-single", "perfect", "hploc", "oibvh-wide4")
-        those = cells([frame("s", (builder, "hilbert30", "sorted", collider), UNIT,
-                             UNIT * (place if collider == "leaf" else 9 - place), sah_cost=cost, box_tests_count=cost)
-                       for place, (builder, cost) in enumerate(zip(builders, (10, 20, 30, 1), strict=True), 1)
-                       for collider in ("leaf", "bvtt")])
-        sah, epo, tests, with_wide = (effects.correlations(those, by) for by in PREDICTORS)
-        for found, leaf in ((sah, 1), (tests, 1), (with_wide, -0.2)):
-            self.assertEqual([*found], ["leaf", "bvtt", effects.ALL])
+    def test_correlate_by_collider_within_a_kind_of_trees(self) -> None:
+        of_kind = {IMPLICIT: ("oibvh-single", "perfect", "oibvh-multi"), POINTERS: ("karras", "hploc", "sah-binned")}
+        those = cells([frame("s", (builder, "hilbert30", "sorted", collider), UNIT, UNIT * (place if collider == "leaf" else 9 - place),
+                             sah_cost=(10 if kind == IMPLICIT else -10) * place, box_tests_count=place)
+                       for kind, builders in of_kind.items() for place, builder in enumerate(builders, 1) for collider in ("leaf", "bvtt")]
+                      + [frame("s", ("oibvh-wide4", "hilbert30", "sorted", "leaf"), UNIT, UNIT, sah_cost=99, box_tests_count=99)])
+        for kind, leaf in ((IMPLICIT, 1), (POINTERS, -1), ("both", 0)):
+            found = effects.correlations(those, "SAH cost", kind)
             self.assertAlmostEqual(found["leaf"]["s"], leaf)
             self.assertAlmostEqual(found["bvtt"]["s"], -leaf)
-            self.assertAlmostEqual(found[effects.ALL]["s"], 0)
-        self.assertEqual(epo, {})
+        self.assertAlmostEqual(effects.correlations(those, "box tests", "both")["leaf"]["s"], 1)
+        self.assertEqual(effects.correlations(those, "end-point overlap", "both"), {})
 
 
 class Shown(unittest.TestCase):
@@ -143,7 +142,7 @@ class Shown(unittest.TestCase):
                          ["", "hploc", "oibvh-wide4", "sah-binned", "", "morton30", "", "mesh", "", "bvtt"])
         dots = [line for line in left.lines if line.get_marker() == "."]
         self.assertEqual((len(dots), {len(line.get_xdata()) for line in dots}), (11, {3}))  # the host's tree has no frame
-        self.assertEqual([text.get_text() for text in right.texts], [by.name for by in PREDICTORS])
+        self.assertEqual([text.get_text() for text in right.texts], [*MEASURES])
         self.assertRegex(effects_table.text(run), r"builder +sah-binned +oibvh-single +0\.8")
 
 

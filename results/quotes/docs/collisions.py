@@ -85,7 +85,7 @@ def effects(doc: Document) -> None:
     doc.table("effects", f"< choice, against | < level | {' | '.join(effects_table.TITLES)}", (
         [f"{choice}, `{reference}`", f"`{level}`", *columns]
         for choice, level, reference, *columns, _ in effects_table.rows_of_ratios(cells)))
-    doc.table("predict", "< measure | " + " | ".join(effects_table.titles_of_ranks(cells)[1:]), effects_table.rows_of_ranks(cells))
+    doc.table("predict", "< measure | < of | " + " | ".join(effects_table.titles_of_ranks(cells)[2:]), effects_table.rows_of_ranks(cells))
     for of_query, what in ((False, "a frame's"), (True, "a query's")):
         by = shares(cells, of_query)
         doc.says(f"of {what} time the collider decides {{}} %, the builder {{}} %, both together {{}} %, order and leaves {{}} %",
