@@ -63,6 +63,7 @@ def left_out(found: Ranking, all_: bool) -> str:
     beaten = sum(cell.raw.get("sampling", {}).get("stopped") == "beaten" for rows in found.scenes.values() for row in rows
                  for cell in row.cells)
     lines += [f"{counted(beaten, 'cell')} beaten before the end of the race\n"] if beaten else []
+    lines += [f"{counted(len(found.unplaced), 'cell')} without a place: they {families.NO_FRAME_BEFORE}\n"] if found.unplaced else []
     return "".join(lines)
 
 

@@ -7,6 +7,7 @@ from matplotlib.patches import Patch
 
 from ..draw import figure, pipelines
 from ..read import ranking_text, results
+from ..read.cells import grouped
 from ..read.ranking import OF_QUERY, Ranking, Row
 from ..words import names
 from ..words.tables import three_digits
@@ -36,8 +37,9 @@ def parts_of(row: Row, objective: str, by_wall: bool) -> list[Part]:
     return [part for part in parts if part[2] > 0]
 
 
-def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, label: Callable[[Row], str]) -> set[tuple[str, str]]:
-    """Draws the bars of one scene and returns the names and colours of their parts."""
+def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, label: Callable[[Row], str],
+               first: int) -> set[tuple[str, str]]:
+    """Draws the bars of one scene and returns the names and colours of their parts. `first` is the scene's first frame."""
     drawn = [parts_of(row, objective, by_wall) for row in rows]
     wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns
               for row, parts in zip(rows, drawn, strict=True)]
@@ -45,10 +47,13 @@ def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, l
     unit = "MB" if objective == "memory" else "ms"
     for place, (row, parts, whole) in enumerate(zip(rows, drawn, wholes, strict=True)):
         mark = "=" if row.tied and place else f"× {ranking_text.number(row.ratio)}"
-        frame_bars.bar(axes, place, [part[1:] for part in parts], limit, f"{three_digits(whole)} {unit}" + (f"  {mark}" if place else ""))
+        is_compared = by_wall or row.first.on_host == rows[0].first.on_host  # by one clock
+        frame_bars.bar(axes, place, [part[1:] for part in parts], limit,
+                       f"{three_digits(whole)} {unit}" + (f"  {mark}" if place and is_compared else ""))
     pipelines.dress_rows(axes, [label(row) for row in rows])
     axes.set_xlim(0, 1.3 * min(limit, max(wholes)))
-    axes.set_title(pipelines.scene_title([pipelines.Pipeline(row.first.scene, row.cells) for row in rows]), loc="left")
+    title = pipelines.scene_title([pipelines.Pipeline(row.first.scene, row.cells) for row in rows])
+    axes.set_title(title + " after the first" * (min(row.first.frame for row in rows) > first), loc="left")
     return {(name, colour) for parts in drawn for name, colour, _ in parts}
 
 
@@ -57,7 +62,8 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
     scenes = [rows[:MOST_ROWS] for rows in found.scenes.values()][:MOST_SCENES]
     heights = [len(rows) + 2.2 for rows in scenes]
     drawing, grid = figure.grid(len(scenes), 1, pipelines.ROW * sum(heights) + 0.9, height_ratios=heights)
-    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label)
+    first = {scene: min(cell.frame for cell in cells) for scene, cells in grouped(run.all_cells, lambda cell: cell.scene).items()}
+    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label, first[rows[0].first.scene])
                           for axes, rows in zip(grid[:, 0], scenes, strict=True)))
     what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
@@ -65,9 +71,10 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
         [*((name, colour) for colour, name in PARTS.items()), REST]
     handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
     height = figure.legend_above(drawing, handles)
-    remarks = [*remarks, "Ratios are to the first bar; = is no worse within noise."]
+    remarks = [*remarks, "Ratios are to the first bar by the same clock; = is no worse within noise."]
     remarks += ["Times are by the wall clock: some are from outside."] if found.by_wall and found.objective != "memory" else []
     scaled = any(row.scale != 1 for rows in scenes for row in rows)
+    remarks += ["No bar: what starts from the frame before, where there is one frame."] if found.unplaced else []
     remarks += ["Times of the beaten are scaled to those of the best."] if scaled else []
     remarks += [frame_bars.SHORTENED] if any(row.ratio > frame_bars.MOST for rows in scenes for row in rows) else []
     hidden = max(len(rows) for rows in found.scenes.values()) - MOST_ROWS

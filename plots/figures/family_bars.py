@@ -16,14 +16,9 @@ def label(row: ranking.Row) -> str:
     return pipeline if pipeline.startswith(family.lower()) else f"{family}: {pipeline}"
 
 
-def refits_outside(row: ranking.Row) -> bool:
-    """True for a tree from outside that is refitted, not built, in each frame."""
-    return bool(row.first.outside) and (row.first.collider or "").endswith("-refit")
-
-
 def draw(experiment: str, run: results.Run) -> figure.plt.Figure:
     found = ranking.ranked(run.frames(experiment), trusts_stages=True)
-    firsts = {scene: ranking_text.best_of_families([row for row in rows if not refits_outside(row)]) for scene, rows in found.scenes.items()}
+    firsts = {scene: ranking_text.best_of_families(rows) for scene, rows in found.scenes.items()}
     return best_bars.draw(run, dataclasses.replace(found, scenes=firsts), label, (REMARKS[experiment],))
 
 

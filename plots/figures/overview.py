@@ -4,14 +4,14 @@ from matplotlib.ticker import MaxNLocator
 
 from ..draw import figure, style
 from ..read import results
-from ..read.cells import Cell, grouped
+from ..read.cells import Cell, grouped, later
 from ..read.ranking import is_by_wall, middle_of
 from ..words.tables import counted, duration
 
 MOST_SCENES, MOST_BARS = 12, 24  # drawn; a remark counts the others
 ROW = 0.17  # inches, of a bar
 NO_TREE = "#666666"  # the colour of what needs no tree
-Bar = tuple[str, float, Cell]  # name, mean over frames of the medians in nanoseconds, one of its cells
+Bar = tuple[str, float, Cell]  # name, mean over the later frames of the medians in nanoseconds, one of its cells
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:
@@ -24,7 +24,7 @@ def bars_of(run: results.Run) -> dict[tuple[str, str, str], list[Bar]]:
     timed = [cell for cell in run.cells if cell.has_times and cell.operation != "accuracy"]
     middle = middle_of(timed)
     return {key: sorted(((name, float(numpy.mean(list(map(middle, cells)))), cells[0])
-                         for name, cells in grouped(those, lambda cell: cell.pipeline).items()), key=lambda bar: bar[1])
+                         for name, cells in grouped(later(those), lambda cell: cell.pipeline).items()), key=lambda bar: bar[1])
             for key, those in grouped(timed, lambda cell: (cell.experiment, cell.scene, cell.operation)).items()}
 
 
@@ -38,7 +38,7 @@ def draw(run: results.Run) -> figure.plt.Figure:
         draw_panel(axes, *key, bars[:MOST_BARS])
         left_out += [f"{key[1]}: {len(bars) - MOST_BARS} slower ones not drawn."] if len(bars) > MOST_BARS else []
     clock = " by the wall clock" if is_by_wall(cell for _, bars in panels for _, _, cell in bars) else ""
-    grid.flat[-1].set_xlabel(f"milliseconds{clock}, median of the samples; of several frames the mean of their medians")
+    grid.flat[-1].set_xlabel(f"milliseconds{clock}, median of the samples; of several frames the mean of those after the first")
     figure.footer(drawing, run, panels[0][0][0], tuple(left_out))
     return drawing
 

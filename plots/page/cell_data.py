@@ -180,7 +180,7 @@ def mark_fronts(cells: list[Data]) -> None:
 
 
 def bars_of(cells: list[Data]) -> list[Data]:
-    """Returns for each builder or pipeline the median time of each stage, averaged over frames, or why there are no times."""
+    """Returns for each builder or pipeline the median time of each stage, averaged over later frames, or why there are no times."""
     places = {id(cell): place for place, cell in enumerate(cells)}
     return [{key: group[0][key] for key in (*QUESTION, "who")} | {"cell": places[id(group[0])] if len(group) == 1 else None}
             | bar_of(group) for group in grouped_by([cell for cell in cells if not cell["ranks"]], *QUESTION, "who")]
@@ -191,12 +191,19 @@ def bar_of(group: list[Data]) -> Data:
     if bad:
         where = f" on frame {bad['frame']}" if len(group) > 1 else ""
         return {"said": f"{bad['state'].replace('_', ' ')}{where}{': ' if bad['why'] else ''}{bad['why']}"}
+    group = later(group)
     stages = {stage: mean_median(group, stage) for stage in dict.fromkeys(stage for cell in group for stage in cell["times"])}
     whole = stages.pop(WHOLE)
     between = round(whole - sum(stages.values()), 1)
     if group[0]["operation"] == "collide" and between > 0:
         stages[BETWEEN] = between
     return {"whole": whole, "stages": stages}
+
+
+def later(group: list[Data]) -> list[Data]:
+    """Returns the cells of a pipeline without its first frame of several, as cells.later does."""
+    first = min(cell["frame"] for cell in group)
+    return [cell for cell in group if cell["operation"] == "collide" and cell["frame"] > first] or group
 
 
 def mean_median(group: list[Data], stage: str) -> float:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from ..files import json_files
 from ..read import savings
 from ..read.cells import Cell, grouped
-from ..read.ranking import Row, ranked
+from ..read.ranking import Row, method, ranked
 from ..read.ranking_text import number
 from ..words.tables import counted, duration
 from . import cell_data
@@ -86,9 +86,10 @@ def cases_of(cells: list[Cell], objective: str) -> list[Case]:
     cases = []
     for key, own in groups.items():
         frames = {cell.frame for cell in own}
-        found = ranked(filter(is_right, own), objective)
-        if full := [row for row in found.rows if {cell.frame for cell in row.cells} == frames]:
-            cases.append(Case(*key, full, found.by_wall and objective == "frame"))
+        right = grouped(filter(is_right, own), method).values()
+        found = ranked([cell for there in right if {cell.frame for cell in there} == frames for cell in there], objective)
+        if found.rows:
+            cases.append(Case(*key, found.rows, found.by_wall and objective == "frame"))
     return cases
 
 
@@ -181,8 +182,9 @@ def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] 
     kept = [k for k, _ in enumerate(COLUMNS) if is_needed.get(k, True) and any(row[k] not in (None, "") for row in rows)]
     more = {"file": ({"links": names},), "time": ({"links": links, "unit": "µs"},)}
     starred = any(row[2] and " *" in row[2] for row in rows)
-    note = ("Time: the lowest, a mean over frames of medians, by the wall clock where a method from outside is compared. Ratio: the "
-            "next over it. Beyond noise: intervals of the medians do not overlap. What was wrong, or lacks a frame, has no place.")
+    note = ("Time: the lowest, of several frames the mean of medians after the first, by the wall clock where a method from outside is "
+            "compared. Ratio: the next over it. Beyond noise: intervals of the medians do not overlap. What was wrong, lacks a frame, or "
+            "starts from the frame before where there is none, has no place.")
     columns = [(*COLUMNS[k], *more.get(COLUMNS[k][0], ())) for k in kept]
     return cell_data.table("The best of each scene", columns, FACETS, [[row[k] for k in kept] for row in rows],
                            note + (f" {cell_data.STAR}." if starred else ""))

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..read.cells import grouped, median
-from .cell_data import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES, table as table_of
+from .cell_data import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES, later, table as table_of
 from .plot_looks import stage_looks
 
 STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
@@ -84,7 +84,7 @@ def times_table(title: str, cells: Cells, called: str, counters: list[str], note
 
 
 def summary_table(cells: Cells) -> dict[str, Any]:
-    """Returns a table with one row for each scene and pipeline: means over frames of their medians, as in the paper's tables."""
+    """Returns a table with one row for each scene and pipeline: means over the frames after the first of their medians."""
     groups = grouped(cells, lambda placed: tuple(placed[1][key] for key in ("experiment", "scene", "asked", "who")))
     unit, scale = unit_of(cells)
     slowest: list[int] = []
@@ -94,21 +94,23 @@ def summary_table(cells: Cells) -> dict[str, Any]:
     rows = []
     for (_, scene, question, name), placed in groups.items():
         group = [data for _, data in placed]
+        after = later(group)
         slowest.append(max(placed, key=lambda one: one[1]["times"].get(WHOLE, [0, 0])[1])[0])
         bad = next((data["state"] for state in WITHOUT_TIMES for data in group if data["state"] == state), None)
-        medians = [data["times"][WHOLE][1] / scale for data in group if WHOLE in data["times"]]
+        medians = {id(data): data["times"][WHOLE][1] / scale for data in group if WHOLE in data["times"]}
         # If frames are missing, a mean would be over other frames and could not be compared, so there is none.
         is_whole = bad is None and medians
 
         def mean(counter: str) -> float | None:
-            values = [data["counters"][counter] for data in group if counter in data["counters"]]
+            values = [data["counters"][counter] for data in after if counter in data["counters"]]
             return statistics.fmean(values) if values and is_whole else None
 
         rows.append([scene, name, bad or group[0]["state"], question, len(group),
-                     statistics.fmean(medians) if is_whole else None, max(medians) if is_whole else None,
+                     statistics.fmean(medians[id(data)] for data in after) if is_whole else None,
+                     max(medians.values()) if is_whole else None,
                      mean("pairs_count"), mean("contacts_count")])
     return table_of("Whole frames by scene", columns, ("scene", "pipeline", "verdict", "asked for"), rows,
-                    noted("Means over all frames of a scene; of a pipeline that lacks one there is none.", cells),
+                    noted("Means over the frames after the first of a scene; of a pipeline that lacks one there is none.", cells),
                     [placed[0][1]["library"] for placed in groups.values()])
 
 

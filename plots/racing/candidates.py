@@ -72,8 +72,8 @@ class Product:
         return self.why_not_at_all(text)
 
     def why_no_collider(self, name: str, text: str) -> str:
-        if (name.startswith("front") or name.endswith("-refit")) and not self.asked.has_frames:
-            return "they start from the frame before, and there is one frame: --frames"
+        if families.keeps(name) and not self.asked.has_frames:
+            return f"they {families.NO_FRAME_BEFORE}: --frames"
         if families.of_collider(name) in families.ON_HOST and not (self.asked.on_cpu or self.asked.with_libraries):
             return ON_THE_HOST
         if families.of_collider(name) == "FCL" and not self.asked.has_narrow:

@@ -171,6 +171,11 @@ class Cell:
         return "{library} {version} ({licence}) by {file}, on {device}".format_map(self.outside) if self.outside else ""
 
     @property
+    def is_frame(self) -> bool:
+        """True for a frame of a scene that may move from frame to frame."""
+        return self.operation == "collide" and not self.swept
+
+    @property
     def on_host(self) -> bool:
         return any("wall_ns" in entry for sample in self.samples for entry in sample.values())
 
@@ -240,6 +245,13 @@ class Cell:
         """Returns the named parts of the identity, ignoring the collider's option `without`."""
         own = parts(self.raw, without)
         return tuple(own.get(name) for name in names)
+
+
+def later(cells: Iterable[Cell]) -> list[Cell]:
+    """Returns the cells without the first of several frames of a scene: the mean of a frame is over the others (docs/frames.md)."""
+    those = list(cells)
+    frames = sorted({cell.frame for cell in those if cell.is_frame})
+    return [cell for cell in those if not cell.is_frame or cell.frame > frames[0] or len(frames) == 1]
 
 
 def sorted_options(choice: dict[str, Any]) -> tuple[tuple[str, str], ...]:

@@ -14,6 +14,8 @@ OWN_LEAVES = ("wide trees", *ON_HOST)  # keep leaf boxes in their own way, whate
 # Colliders that make a family by themselves, whatever tree they use.
 COLLIDERS = (("front", "front tracking"), ("grid", "hierarchical grid"), ("brute", "sweep"), ("embree", "Embree"), ("fcl", "FCL"))
 
+NO_FRAME_BEFORE = "start from the frame before, and there is one frame"
+
 
 def first_fit(name: str, table: tuple[tuple[str, str], ...]) -> str | None:
     return next((family for start, family in table if name.startswith(start)), None)
@@ -26,6 +28,15 @@ def of_builder(name: str) -> str:
 def of_collider(name: str) -> str | None:
     """Returns the family that a collider makes by itself, or None if its tree decides."""
     return first_fit(name, COLLIDERS)
+
+
+def keeps(collider: str, update: str = "") -> bool:
+    """True if a collider with this option `update` starts from what it kept of the frame before, a front or a tree."""
+    return update == "refit" or collider.endswith("-refit") or (of_collider(collider) == "front tracking" and update != "rebuild")
+
+
+def keeps_frame(cell: Cell) -> bool:
+    return cell.is_frame and keeps(cell.collider or "", dict(cell.collider_options).get("update", ""))
 
 
 def of_cell(cell: Cell) -> str:

@@ -6,6 +6,8 @@ what its stages took, and bvhbench measures its calls.
 Times of cells that lost a race (docs/races.md) were taken while the machine may have been faster or slower than
 later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
 took later.
+
+Frames are compared over those after the first (cells.later). On a scene with one frame, what starts from the frame before has no place.
 """
 import functools
 import math
@@ -15,7 +17,8 @@ from typing import NamedTuple
 
 import numpy
 
-from .cells import Cell, Sample, counted, elapsed_ns, grouped, median, whole_ns
+from . import families
+from .cells import Cell, Sample, counted, elapsed_ns, grouped, later, median, whole_ns
 from .results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
@@ -31,7 +34,7 @@ class Row:
     """A builder or pipeline over the frames of one scene, or over several scenes."""
 
     cells: list[Cell]
-    ns: float = 0.0  # mean over frames of the medians of what it is ranked by; of the beaten as scaled (see above)
+    ns: float = 0.0  # mean over the later frames of the medians of what it is ranked by; of the beaten as scaled (see above)
     scale: float = 1.0  # by which the medians of its samples were scaled
     ratio: float = math.inf  # to the best; of several scenes the geometric mean of the ratios
     tied: bool = False  # the best is not better by more than the noise
@@ -72,6 +75,7 @@ class Ranking:
     scenes: dict[str, list[Row]]  # of each scene
     wrong: list[Cell]  # cells whose answer is wrong; they are in no row
     without: list[Cell]  # cells without times
+    unplaced: list[Cell]  # cells that start from the frame before, of scenes with one frame
 
     @property
     def best(self) -> Row | None:
@@ -261,8 +265,11 @@ def ranked(cells: Iterable[Cell], objective: str = "frame", trusts_stages: bool 
     bad = {(cell.scene, method(cell)) for cell in wrong}
     timed = [cell for cell in cells if cell.has_times and (cell.scene, method(cell)) not in bad
              and (objective not in AMOUNTS or not math.isnan(AMOUNTS[objective](cell)))]
-    measure = Measure(objective, not trusts_stages and is_by_wall(timed))
-    scenes = {scene: rows_of_scene(there, measure) for scene, there in grouped(timed, lambda cell: cell.scene).items()}
+    still = {scene for scene, there in grouped(timed, lambda cell: cell.scene).items() if len({cell.frame for cell in there}) == 1}
+    unplaced = [cell for cell in timed if cell.scene in still and families.keeps_frame(cell)]
+    placed = [cell for cell in timed if cell not in unplaced]
+    measure = Measure(objective, not trusts_stages and is_by_wall(placed))
+    scenes = {scene: rows_of_scene(later(there), measure) for scene, there in grouped(placed, lambda cell: cell.scene).items()}
     rows = next(iter(scenes.values())) if len(scenes) == 1 else over_scenes(scenes)
     without = [cell for cell in cells if not cell.has_times and cell.verdict != "differs"]
-    return Ranking(objective, measure.by_wall, rows, scenes, wrong, without)
+    return Ranking(objective, measure.by_wall, rows, scenes, wrong, without, unplaced)

@@ -105,8 +105,8 @@ class ARanking(unittest.TestCase):
     def test_over_scenes_is_by_the_geometric_mean_of_ratios(self) -> None:
         found = ranked(frame("leaf", [100] * 5), frame("group", [400] * 5), frame("bvtt", [120] * 5),
                        frame("leaf", [400] * 5, scene="cow"), frame("group", [100] * 5, scene="cow"),
-                       frame("bvtt", [120] * 5, scene="cow"), frame("front", [1] * 5, scene="cow"))
-        self.assertEqual(names(found), ["bvtt", "leaf", "group"])  # front has no time on the bunny
+                       frame("bvtt", [120] * 5, scene="cow"), frame("block", [1] * 5, scene="cow"))
+        self.assertEqual(names(found), ["bvtt", "leaf", "group"])  # block has no time on the bunny
         self.assertEqual([round(row.ratio, 1) for row in found.rows], [12.0, 20.0, 20.0])
         found = ranked(*(frame(name, [time] * 5, scene=scene) for scene, times in (("a", (100, 400)), ("b", (900, 100)))
                          for name, time in zip(("leaf", "group"), times)))
@@ -116,12 +116,28 @@ class ARanking(unittest.TestCase):
         self.assertIn("2.0 times the time of each scene's best, in the geometric mean over 2 scenes", ranking_text.sentence(found))
 
     def test_sums_frames_and_puts_what_lacks_some_behind(self) -> None:
-        found = ranked(frame("leaf", [100] * 5), frame("leaf", [300] * 5, number=1), frame("group", [150] * 5),
-                       frame("group", [200] * 5, number=1), frame("bvtt", [340] * 5))
+        found = ranked(frame("leaf", [100] * 5, number=1), frame("leaf", [300] * 5, number=2), frame("group", [150] * 5, number=1),
+                       frame("group", [200] * 5, number=2), frame("bvtt", [340] * 5, number=1),
+                       *(frame(name, [9] * 5) for name in ("leaf", "group", "bvtt")))
         self.assertEqual(names(found), ["group", "leaf", "bvtt"])
         self.assertEqual([row.complete for row in found.rows], [True, True, False])
         self.assertEqual(round(found.rows[2].ratio, 2), 2.27)  # to the best on its own frame
         self.assertIn("1 frame only", page.text(found))
+
+    def test_is_over_the_frames_after_the_first(self) -> None:
+        found = ranked(frame("front", [900] * 5), frame("front", [80] * 5, number=1), frame("group", [100] * 5),
+                       frame("group", [100] * 5, number=1))
+        self.assertEqual([(row.first.collider, row.ns, row.complete) for row in found.rows], [("front", 80e3, True), ("group", 100e3, True)])
+        self.assertEqual(found.unplaced, [])
+
+    def test_has_no_place_on_a_still_scene_for_what_starts_from_the_frame_before(self) -> None:
+        kept = [frame("front", [1] * 5), frame("embree-refit", [2] * 5), frame("group", [3] * 5)]
+        kept[2]["collider"]["options"] = {"update": "refit"}
+        fresh = frame("front", [200] * 5, "karras")
+        fresh["collider"]["options"] = {"update": "rebuild"}
+        found = ranked(*kept, fresh, frame("leaf", NARROW))
+        self.assertEqual((names(found), len(found.unplaced)), (["leaf", "front"], 3))
+        self.assertIn("3 cells without a place: they start from the frame before, and there is one frame\n", page.text(found))
 
     def test_compares_the_beaten_with_what_the_best_took_then(self) -> None:
         # The machine became slower after `leaf` had lost: its times are shorter, and it lost all the same.
@@ -148,8 +164,8 @@ class ASentence(unittest.TestCase):
         self.assertEqual(ranking_text.repeated(found.rows[0], "my mesh.obj", ["--narrow", "exact"]),
                          "bvhbench collide --builder oibvh-single --collider block --order hilbert30 --leaves sorted "
                          "--scene 'my mesh.obj' --narrow exact")
-        alone = ranked(frame("leaf", NARROW), frame("front", [210] * 5))
-        self.assertIn("2.1 times as fast as the next family (`front`).", ranking_text.sentence(alone))
+        alone = ranked(frame("leaf", NARROW), frame("grid", [210] * 5))
+        self.assertIn("2.1 times as fast as the next family (`grid`).", ranking_text.sentence(alone))
 
     def test_without_another_family_names_the_next(self) -> None:
         found = ranked(frame("leaf", NARROW), frame("leaf", [150] * 5, options={"order": "kd"}))

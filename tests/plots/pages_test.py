@@ -15,7 +15,7 @@ from base import GOLDEN, ROOT, Raw, run_of
 
 from plots.commands import show
 from plots.console import accuracy_table, cells as cells_page, paper, stress_table, tree_costs
-from plots.page import circumstances, findings, report
+from plots.page import cell_data, circumstances, findings, report, tables as page_tables
 from plots.read import results
 from plots.read.cells import Cell
 from plots.words import tables
@@ -208,6 +208,18 @@ class OfTheReport(unittest.TestCase):
 
         wrong = {"check": {"verdict": "differs", "against": "contract"}}
         self.assertEqual(answer_of(made[0], {**made[1], **wrong}), "1 answer is right; 1 cell gave a wrong answer.")
+
+    def test_the_mean_of_frames_is_over_those_after_the_first(self) -> None:
+        made = [{**cell("karras", ns), "scene": {"name": "cloth", "triangles": 8, "frame": frame}, "operation": "collide",
+                 "collider": {"name": name, "options": {}}}
+                for name, times in (("front", (900000, 100000, 300000)), ("leaf", (200000, 400000, 400000))) for frame, ns in enumerate(times)]
+        self.assertIn("front over karras is soonest on cloth: 200 µs", answer_of(*made))
+        cells = [cell_data.cell_data(Cell(one), 0) for one in base.document(*made)["cells"]]
+        self.assertEqual([bar["whole"] for bar in cell_data.bars_of(cells)], [200000, 400000])
+        summary, *_ = page_tables.tables_of(cells)
+        self.assertEqual([row[5:7] for row in summary["rows"]], [[200, 900], [400, 400]])  # the mean and the slowest
+        still = found_in(*made[::3])
+        self.assertEqual((still["answer"], len(still["rows"])), ("Only leaf over karras was measured: 200 µs. All 2 answers are right.", 1))
 
     def test_cells_with_and_without_cold_caches_are_not_compared(self) -> None:
         made = [cell("karras", 100000), {**cell("karras", 900000), "sampling": {"caches": "cold"}}]

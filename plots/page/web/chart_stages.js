@@ -59,6 +59,7 @@ function stagesChart(file, stageLooks) {
     });
     const whole = (bar) => (bar.whole ? `<br><b>${four(bar.whole / unit[1])} ${unit[0]}</b>` : "");
     const frames = distinct(cells, "frame").length;
+    const which = cells[0].operation === "collide" ? "frames after the first" : `${frames} frames`;
     const row = Math.max(ROW, 15 * (Math.max(...labels.map((lines) => lines.length)) + 1) + 6); // all as high as the highest
     return {
       traces,
@@ -80,7 +81,7 @@ function stagesChart(file, stageLooks) {
         annotations: bars.filter((bar) => bar.said).map(note),
       },
       notes: [
-        frames > 1 ? `Means over ${frames} frames of medians. Bold: the whole.` : "Medians. Bold: the whole.",
+        frames > 1 ? `Means over ${which} of medians. Bold: the whole.` : "Medians. Bold: the whole.",
         longest > limit ? `The axis ends at ${LONGEST} times the shortest bar; a double click on the chart shows all.` : "",
       ],
     };

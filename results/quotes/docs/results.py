@@ -14,7 +14,7 @@ def quotes(doc: Document) -> None:
             best.setdefault(ranking_text.family(row), []).append(row.ratio)
     if max(best["implicit trees"]) > 1:
         raise ValueError("the page says that implicit trees win on all three scenes")
-    doc.says("Front tracking takes {} to {} times as long, a hierarchical grid {} to {}, radix trees {} to {}, and Embree on 16 threads of "
+    doc.says("Front tracking takes {} to {} times as long where a scene moves, a hierarchical grid {} to {}, radix trees {} to {}, and Embree on 16 threads of "
              "the host {} to {} times", *(end for family in ("front tracking", "hierarchical grid", "radix trees", "Embree")
                                       for end in ends(best[family])))
     doc.says("is {} to {} times as fast as the radix tree as printed (`apetrei`), and {} to {} times as fast as",
