@@ -1,6 +1,7 @@
+import math
 import operator
 
-from plots.evidence.quotes import ONE_SET, Document, File, asked_of, frame_ms, query_us, sah, tree_us, us
+from plots.evidence.quotes import ONE_SET, Document, File, asked_of, ends, frame_ms, query_us, sah, tree_us, us
 from plots.read import ranking, ranking_text
 from plots.read.cells import Cell
 from plots.words import tables
@@ -17,18 +18,44 @@ def told(row: ranking.Row | None, best: ranking.Row) -> str:
     return f"**{time}**" if row is best else f"{time} ({'=' if row.tied else f'× {ranking_text.number(row.ratio)}'})"
 
 
+def host_ms(row: ranking.Row) -> float:
+    """Returns the mean over frames by the host's clock, with copies to the device and back."""
+    return ranking.mean([cell.wall_ns + sum(cell.counters.get(f"{copy}_ns", 0) for copy in ("upload", "read_back")) for cell in row.cells]) * 1e-6
+
+
+def by_host(rows: list[ranking.Row]) -> dict[str, float]:
+    """Returns the least host_ms of the host's libraries and of all of ours, under the name "ours"."""
+    times: dict[str, float] = {}
+    for row in rows:
+        family = ranking_text.family(row)
+        name = family if family in ("Embree", "FCL") else "ours"
+        times[name] = min(times.get(name, math.inf), host_ms(row))
+    return times
+
+
+def told_of_host(time: float, ours: float) -> str:
+    return f"**{tables.three_digits(time)}**" if time == ours else f"{tables.three_digits(time)} (× {ranking_text.number(time / ours)})"
+
+
 def families(doc: Document) -> None:
-    """The table of families, in both files by scene, and what is said of it."""
-    bests, as_printed = [], []
+    """The tables of families, in both files by scene, and what is said of them."""
+    bests, as_printed, hosts, samples = [], [], [], {}
     for machine in ("h200", "pocl-2-cores"):
         found = ranking.ranked(File(f"{machine}/families").cells)
         as_printed += [row.ratio for rows in found.scenes.values() for row in rows if asked_of(row.first) == AS_PRINTED]
         bests += [{ranking_text.family(row): row for row in ranking_text.best_of_families(rows)} for rows in found.scenes.values()]
-    labels = {"implicit trees": "implicit trees, the paper's", "front tracking": "front tracking, over any tree"}
-    for family in bests[1]:
-        doc.row(labels.get(family, family), *(told(of.get(family), next(iter(of.values()))) for of in bests))
-    doc.says("with `bvtt`, it takes {} to {} times the best", min(as_printed[:3]), max(as_printed[:3]))
+        hosts += map(by_host, found.scenes.values())
+        samples[machine] = [len(cell.samples) for rows in found.scenes.values() for row in rows for cell in row.cells]
     on_h200 = list(ranking.ranked(File("h200/families").cells).scenes.values())
+    labels = {"implicit trees": "implicit trees, the paper's", "front tracking": "front tracking, over any tree"}
+    for family in [name for name in bests[1] if name not in hosts[0]]:
+        doc.row(labels.get(family, family), *(told(of.get(family), next(iter(of.values()))) for of in bests))
+    bunny = on_h200[0][0].first
+    assert bunny.scene == "bunny" and bunny.counters["contacts_count"] == 0, "README says that the bunny has no contact"
+    for name, label in (("ours", "ours, the best"), ("Embree", "Embree"), ("FCL", "FCL")):
+        doc.row(label, *(told_of_host(of[name], of["ours"]) for of in hosts))
+    doc.says("medians of {} samples, on two cores {} to {},", max(samples["h200"]), *ends(samples["pocl-2-cores"]))
+    doc.says("with `bvtt`, it takes {} to {} times the best", min(as_printed[:3]), max(as_printed[:3]))
 
     def ratios(collider: str, tree: str) -> list[float]:
         return [next(row.ratio for row in rows if row.first.collider == collider and row.first.called.endswith(tree)) for rows in on_h200]
