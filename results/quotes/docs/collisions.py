@@ -49,6 +49,16 @@ def pairs(doc: Document) -> None:
     doc.table("pairs", f"< scene | pairs | {' | '.join(f'over `{order}`' for order in orders)} | `leaf` or `group` | whole", rows)
 
 
+def fronts_mb(file: File, scene: str) -> float:
+    """Returns the megabytes of the front that takes the least time over a scene, over any tree."""
+    return most_mb(min((file.frames(scene, asked) for asked in (FRONT, *RADIX)), key=later_ms))
+
+
+def memory(file: File, asked: str) -> tuple[float, float]:
+    """Returns how many times the megabytes of a pipeline the best front takes, the least and the most of the scenes of Table 2."""
+    return ratios(*zip(*((fronts_mb(file, scene), most_mb(file.frames(scene, asked))) for scene in TABLE2.values()), strict=True))
+
+
 def frames(doc: Document) -> None:
     file = File("h200/table2")
     doc.table("table2", "< scene | `block` | `bvtt` | root | CDK18 | `front` | best front | fresh front | refit | paper: front, its tree", (
@@ -97,5 +107,6 @@ def quotes(doc: Document) -> None:
     file = File("h200/table2")
     ours, *fronts = ([later_ms(file.frames(scene, asked)) for scene in TABLE2.values()] for asked in (BVTT, *RADIX))
     doc.says("takes {} to {} of the time of the best front over a radix tree", *ratios(ours, map(min, *fronts)))
+    doc.says("takes {} to {} times the memory of `bvtt`, and {} to {} times that of `block`", *memory(file, BVTT), *memory(file, BLOCK))
     for part in (pairs, frames, rebuild):
         part(doc)
