@@ -8,7 +8,7 @@ The list of NAME.md is results/quotes/NAME.py. Its function `quotes` makes the t
     <!-- generated: NAME -->
     <!-- end -->
 
-of the document (Document.table), and names the few sentences that quote a number, with its value (Document.says).
+of the document (Document.table, or Document.block for other lines), and names the few sentences that quote a number, with its value (Document.says).
 """
 import argparse
 import json
@@ -30,6 +30,7 @@ from ..words import names, tables
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NUMBER = r"-?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e-?\d+)?"
 NUMBER_PLACE, TEXT_PLACE = rf"(?<![\d.,])(?:\*\*)?({NUMBER})(?:\*\*)?", r"([^|\n]*?)"
+CLAIMS = "claims.py"  # of several documents, and no list of one
 ONE_SET = ", objects: one"  # of a scene whose objects were one set
 RESULT = re.compile(r"results/[\w-]+/[\w-]+\.json\.xz|<!-- generated: ")
 Value = float | str | None
@@ -152,13 +153,16 @@ class Document:
         return f"{self.name}:{self.text.count(chr(10), 0, offset) + 1}"
 
     def table(self, name: str, titles: str, rows: Iterable[Sequence[Value]]) -> None:
-        """The document has this table between the marks of its name."""
+        self.block(name, markdown(titles, rows))
+
+    def block(self, name: str, text: str) -> None:
+        """The document has these lines between the marks of their name."""
         self.made.append(name)
         begin = f"<!-- generated: {re.escape(name)} -->"
         if found := re.search(rf"^{begin}\n((?:(?!<!--).)*)^<!-- end -->$", self.text, re.MULTILINE | re.DOTALL):
-            self.quotes.append(Quote(*found.span(1), markdown(titles, rows)))
+            self.quotes.append(Quote(*found.span(1), text))
         else:
-            self.faults.append(f"{self.name}: the table '{name}' has no marks, or no end")
+            self.faults.append(f"{self.name}: the block '{name}' has no marks, or no end")
 
     def says(self, sentence: str, *values: float | str) -> None:
         """The document has this sentence once, with a number of this value for each {}, rounded to the digits that it has there, or
@@ -240,7 +244,7 @@ def read(path: pathlib.Path) -> Document:
 
 def documents() -> list[Document]:
     """Returns the documents that have a list."""
-    return [read(path) for path in sorted((ROOT / "results" / "quotes").rglob("*.py"))]
+    return [read(path) for path in sorted((ROOT / "results" / "quotes").rglob("*.py")) if path.name != CLAIMS]
 
 
 def main() -> int:

@@ -36,11 +36,11 @@ class TheDocuments(unittest.TestCase):
         rows = re.findall(r"^\| (.*) \|$", text[text.index("## Claims"):text.index("## Index")], re.MULTILINE)[2:]
         verdicts = collections.Counter[str]()
         for claim, printed, ours, verdict, command in (row.split(" | ") for row in rows):
-            verdicts[re.match("(?:holds in part|holds|does not hold|not tested)?", verdict)[0]] += 1
+            verdicts[re.match("(?:confirmed in part|confirmed|not confirmed|not tested)?", verdict)[0]] += 1
             self.assertTrue(command != "none" or verdict.startswith("not tested: "), claim)
             for name in re.findall(r"`bvhbench (?:run|reproduce) ([\w-]+)`", command):
                 self.assertTrue((ROOT / "harness" / "experiments" / f"{name}.json").is_file(), claim)
-        self.assertIn("Of {} claims {holds} hold, {holds in part} hold in part, {does not hold} do not, and {not tested} was not tested"
+        self.assertIn("Of {} claims {confirmed} are confirmed, {confirmed in part} in part, {not confirmed} not, and {not tested} was not tested"
                       .format(len(rows), **verdicts), text)
 
 
@@ -92,7 +92,7 @@ class ADocument(InFolder):
         made.table("one", "< name | ms | count", rows)
         self.assertIn("made.md:3: | `x`  |  1,235 |     6 |, the file has | `x`  |  1,234 |     6 |", made.findings())
         made.table("three", "< name", [])
-        self.assertEqual(made.faults, ["made.md: the table 'three' has no marks, or no end"])
+        self.assertEqual(made.faults, ["made.md: the block 'three' has no marks, or no end"])
         self.assertIn("made.md: the marks and the list of tables differ: ['one', 'two'], ['one', 'three']", made.findings())
 
 

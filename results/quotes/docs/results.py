@@ -1,13 +1,11 @@
-from plots.evidence.quotes import Document, File, ends, frame_ms, later_ms, listed, ratios, sah
+from plots.evidence.quotes import Document, File, ends, frame_ms, listed, ratios, sah
 from plots.read import ranking, ranking_text
 
-of_paper, of_frames, of_orders, of_rivals, of_stress, of_readme = (
-    listed(name) for name in ("docs/paper", "docs/collisions", "docs/orders", "docs/rivals", "docs/stress", "README"))
+of_orders, of_rivals, of_stress, of_readme = (listed(name) for name in ("docs/orders", "docs/rivals", "docs/stress", "README"))
 
 
 def quotes(doc: Document) -> None:
-    names = "table1", "fig8", "table2", "table3", "table4", "quality"
-    table1, fig8, table2, table3, table4, quality = (File(f"h200/{name}") for name in names)
+    quality = File("h200/quality")
     best: dict[str, list[float]] = {}
     found = ranking.ranked(File("h200/families").cells)
     for rows in found.scenes.values():
@@ -19,16 +17,7 @@ def quotes(doc: Document) -> None:
              *(end for family in ("front tracking", "hierarchical grid", "radix trees") for end in ends(best[family])))
     doc.says("By the host's clock, with copies, Embree on 16 threads takes {} to {} times as long",
              *ends(of["Embree"] / of["ours"] for of in map(of_readme.by_host, found.scenes.values())))
-    doc.says("is {} to {} times as fast as the radix tree as printed (`apetrei`), and {} to {} times as fast as",
-             *of_paper.faster(table1, "apetrei"), *of_paper.faster(table1, "apetrei-fused"))
-    doc.says("{} to {} times `apetrei` from 2^10 to 2^24", *of_paper.faster(fig8, "apetrei"))
-    fronts, ours = ([min(later_ms(table2.frames(scene, asked)) for asked in those) for scene in of_frames.TABLE2.values()]
-                    for those in (of_frames.RADIX, [of_frames.BVTT]))
-    doc.says("is {} to {} times as fast as the best front over a radix tree", *ratios(fronts, ours))
-    grid, ours = ([later_ms(table3.frames(scene, asked)) for scene in of_frames.TABLE3.values()]
-                  for asked in ("hierarchical grid", of_frames.BVTT))
-    doc.says("takes {} to {} of the time of the paper's pipeline", *ratios(grid, ours))
-    doc.says("{} to {} times the surface area cost", *ends(of_paper.cost_ratios(table4, of_paper.scenes_of(table4))))
+    listed("claims").bullets(doc)
     kd, radix = ([sah(quality, scene, asked) for scene in of_orders.SCANS] for asked in ("oibvh-multi, kd", "apetrei-fused"))
     doc.says("brings it within {} % on five scans", 100 * ratios(kd, radix)[1] - 100)
     doc.says("takes {} to {} times as long as `block` over", *ends(of_rivals.best_ratios(File("h200/rivals"))))
