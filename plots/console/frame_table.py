@@ -37,12 +37,12 @@ def text(run: results.Run, printed: str = "") -> str:
     there are no frames. Of several frames the first is in the column "first", and all other columns have means over those after it.
     The column "wall" is the host's clock, in ms. The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
-                          lambda cell: cell.key("scene", "builder", "collider", "experiment", "caches")).values())
+                          lambda cell: (cell.scene, *cell.key("builder", "collider", "experiment", "caches"))).values())
     has_wall = any(cell.wall_ns for cells in groups for cell in cells)
     by_wall = is_by_wall(cell for cells in groups for cell in cells)
     table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", *["wall"] * has_wall, "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []
-    names = [cells[0].scene_facts["name"] for cells in groups]
+    names = [cells[0].scene for cells in groups]
     for cells, name, next_name in zip(groups, names, [*names, None][1:], strict=True):
         first = cells[0]
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
@@ -55,7 +55,7 @@ def text(run: results.Run, printed: str = "") -> str:
                   fixed(mean(later, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
                   value=float((wall_of(later) if by_wall else of_frames[0]) or "nan"))
         for row in rows if name != next_name else ():
-            if row["scene"] == (first.stand_in_for or name):
+            if row["scene"] == (first.stand_in_for or first.scene_facts["name"]):
                 table.row("", f"paper: {row['method']}", str(row["frames"]), "", fixed(row["frame_ms"], 3),
                           fixed(row.get("frame_stdev_ms", 0) or None, 3), "", *[""] * has_wall, "", "", fixed(row["memory_megabytes"], 1), "", "", "",
                           "printed")

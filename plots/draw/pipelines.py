@@ -108,7 +108,8 @@ def scene_title(shown: list[Pipeline], between: str = " ") -> str:
 
 
 def scene_name(cell: results.Cell) -> str:
-    return f"{cell.stand_in_for}* ({cell.scene})" if stands_in(cell) else cell.scene
+    real = ", real step" if cell.is_frame and not cell.scene_facts.get("between") and cell.scene_facts.get("source") != "generated" else ""
+    return f"{cell.stand_in_for}*{real} ({cell.scene})" if stands_in(cell) else cell.scene
 
 
 def stands_in(cell: results.Cell) -> bool:

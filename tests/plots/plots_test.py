@@ -8,6 +8,7 @@ import unittest
 
 from base import ALL_CASES, GOLDEN, ROOT, InFolder, Raw, golden  # first: it adds the source root to sys.path
 
+from plots.console import frame_table
 from plots.draw import cell_map, figure, pipelines, style
 from plots.figures import catalog, fig8, frame_bars, overview, roofline, scaling, swept_bars, table1
 from plots.files import output
@@ -172,6 +173,19 @@ class Frames(Drawn):
             self.assertIn(words, text)
         self.assertEqual(pipelines.apart({"": [ours]}), "over frames after the first")
         self.assertEqual(pipelines.apart({"": [ours.later]}), "over frames")
+
+    def test_names_the_real_step_of_a_sequence_apart_from_the_steps_between(self) -> None:
+        document = golden("table2")
+        for cell in [cell for cell in document["cells"] if cell["scene"]["name"] == "unc_cloth_ball"]:
+            cell["scene"]["source"] = "dynamic/unc_cloth_ball"
+            document["cells"].append({**copy.deepcopy(cell), "scene": cell["scene"] | {"between": 15}})
+        for picture in ("table2", "table2-fig9", "table2-fig10"):
+            text = self.drawn("table2", document, picture)
+            for words in ("cloth-ball*, real step (unc_cloth_ball)", "cloth-ball* (unc_cloth_ball, 15 between)"):
+                self.assertIn(words, " ".join(re.findall(r">([^<>]+)</text>", text)))
+        rows = [line.split(" for ")[0] for line in frame_table.text(results.load(self.written(document, "made.json")), "table2").splitlines()]
+        self.assertLess(rows.index("unc_cloth_ball"), rows.index("unc_cloth_ball, 15 between"))
+        self.assertEqual(rows.count("unc_cloth_ball"), rows.count("unc_cloth_ball, 15 between"))
 
     def test_says_nothing_of_stand_ins_and_the_paper_where_there_are_none(self) -> None:
         document = golden("table2")
