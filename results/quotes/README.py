@@ -1,8 +1,7 @@
 import math
 
-from plots.evidence.quotes import ONE_SET, Document, File, asked_of, ends, frame_ms, listed, query_us, sah, tree_us, us
+from plots.evidence.quotes import ONE_SET, Document, File, asked_of, ends, frame_ms, listed, sah, us
 from plots.read import ranking, ranking_text
-from plots.read.cells import Cell
 from plots.words import tables
 
 AS_PRINTED = "bvtt over oibvh-multi"
@@ -82,23 +81,15 @@ def strong_scaling() -> tuple[float, float]:
     return ends(frame_ms(one) / frame_ms(four) for one, _, four in runs)
 
 
-def triangles_to_pairs(cell: Cell) -> float:
-    return tree_us(cell) + query_us(cell)
-
-
 def quotes(doc: Document) -> None:
     families(doc)
     frames, table2 = listed("docs/collisions"), File("h200/table2")
     doc.says("of Table 2, in {} to {} times less memory", *frames.memory(table2, frames.BLOCK))
     listed("claims").bullets(doc, "sizes", "refit")
     quality(doc)
-    rivals = File("h200/rivals")
-    ours = {scene: triangles_to_pairs(rivals.cell(scene, "block over oibvh-single (hilbert30, sorted leaves)"))
-            for scene in {cell.scene for cell in rivals.cells if cell.outside}}
-    theirs = {scene: min(triangles_to_pairs(cell) for cell in rivals.cells if cell.scene == scene and cell.outside and cell.has_times
-                         and not cell.called.endswith("-refit")) for scene in ours}
-    ratios = [theirs[scene] / ours[scene] for scene in ours]
-    doc.says("take at best {} to {} times as long as `block`", min(ratios), max(ratios))
+    of_rivals, rivals = listed("docs/rivals"), File("h200/rivals")
+    doc.says("take at best {} to {} times as long as `block`", *ends(of_rivals.best_ratios(rivals)))
+    doc.says("and {} to {} times as long as `group` over our radix tree", *ends(of_rivals.best_ratios(rivals, "group over apetrei-fused")))
 
     most, = File("h200/cluster-most").results()
     doc.says("four H200 find the {} pairs of a torus of 2,147,483,648 triangles in {} ms a frame (three, that do not move) after {} s of cutting",
