@@ -1,6 +1,4 @@
 """Prints a ranking of builders or pipelines, and what was left out of it."""
-import math
-
 from ..read import families, ranking_text, results
 from ..read.cells import Cell, grouped
 from ..read.ranking import Ranking, Row, ranked
@@ -11,12 +9,6 @@ MOST_ROWS = 12
 MOST_OF_SCENE = 4  # rows of each scene, if there are several
 MAY_BE_BLANK = ("<", "SAH", "box tests", "<error")  # columns that are left out if no row has them
 MILLI, MEGA = 1e-6, 1e-6
-
-
-def error(row: Row) -> str:
-    """Returns how many pairs or contacts are missed or false on average; blank for what is exact."""
-    said = [(row.mean("missed_count"), "missed"), (row.mean("false_count"), "false"), (row.mean("false_pairs_count"), "false")]
-    return ", ".join(f"{count:,.0f} {what}" for count, what in said if not math.isnan(count) and count > 0)
 
 
 def milliseconds(by_wall: bool) -> str:
@@ -37,7 +29,7 @@ def rows_text(rows: list[Row], most: int | None, scenes: list[str], by_wall: boo
         frames = "" if row.complete else f", {counted(len(row.cells), 'frame')} only"
         mark = "=" if row.tied and row is not rows[0] else ""
         lines.append([ranking_text.label(row.first), *columns, fixed(row.ratio), mark, fixed(row.bytes * MEGA, 1), fixed(row.sah),
-                      whole(row.mean("box_tests_count")), error(row),
+                      whole(row.mean("box_tests_count")), row.wrong,
                   "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames])
     titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or [milliseconds(by_wall)]), "times the best", "<", "MB",
               "SAH", "box tests", "<error", "samples", "<verdict"]

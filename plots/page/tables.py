@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..read.cells import grouped, median
-from .cell_data import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES, later, table as table_of
+from .cell_data import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES, later, mean_median, table as table_of
 from .plot_looks import stage_looks
 
 STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
@@ -97,7 +97,7 @@ def summary_table(cells: Cells) -> dict[str, Any]:
         after = later(group)
         slowest.append(max(placed, key=lambda one: one[1]["times"].get(WHOLE, [0, 0])[1])[0])
         bad = next((data["state"] for state in WITHOUT_TIMES for data in group if data["state"] == state), None)
-        medians = {id(data): data["times"][WHOLE][1] / scale for data in group if WHOLE in data["times"]}
+        medians = [data["times"][WHOLE][MEDIAN] / scale for data in group if WHOLE in data["times"]]
         # If frames are missing, a mean would be over other frames and could not be compared, so there is none.
         is_whole = bad is None and medians
 
@@ -106,8 +106,7 @@ def summary_table(cells: Cells) -> dict[str, Any]:
             return statistics.fmean(values) if values and is_whole else None
 
         rows.append([scene, name, bad or group[0]["state"], question, len(group),
-                     statistics.fmean(medians[id(data)] for data in after) if is_whole else None,
-                     max(medians.values()) if is_whole else None,
+                     mean_median(after, WHOLE) / scale if is_whole else None, max(medians) if is_whole else None,
                      mean("pairs_count"), mean("contacts_count")])
     return table_of("Whole frames by scene", columns, ("scene", "pipeline", "verdict", "asked for"), rows,
                     noted("Means over the frames after the first of a scene; of a pipeline that lacks one there is none.", cells),

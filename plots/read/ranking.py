@@ -66,6 +66,12 @@ class Row:
         """Returns the mean of a counter over the cells, or NaN if one lacks it."""
         return mean([cell.counters.get(counter, math.nan) for cell in self.cells])
 
+    @property
+    def wrong(self) -> str:
+        """Returns how many pairs or contacts are missed and false on average: "3 missed, 1 false"; empty if none is known."""
+        counts = (self.mean("missed_count"), "missed"), (self.mean("false_count"), "false"), (self.mean("false_pairs_count"), "false")
+        return ", ".join(f"{count:,.0f} {what}" for count, what in counts if count > 0)
+
 
 @dataclass
 class Ranking:

@@ -112,12 +112,9 @@ def tied_words(found: Ranking) -> str:
 def error_words(row: Row) -> str:
     if row.is_right and all(cell.verdict == "agrees" for cell in row.cells):
         return ""
-    counts = {what: row.mean(counter) for what, counter in
-              (("missed", "missed_count"), ("false", "false_count"), ("false", "false_pairs_count"))}
-    said = [f"{count:,.0f} {what}" for what, count in counts.items() if count > 0]
     if not row.is_right:
         return "; its answer was not checked"
-    return f"; of what it finds {', '.join(said)}" if said else ""
+    return f"; of what it finds {row.wrong}" if row.wrong else ""
 
 
 def sentence(found: Ranking) -> str:

@@ -309,6 +309,8 @@ class ATable(unittest.TestCase):
         text = page.text(ranked(made))
         self.assertRegex(text, r"leaf over oibvh-multi, u16 boxes .* 14\.00 .* 12 false +5  counted\n")
         self.assertIn("; of what it finds 12 false.", text)
+        made["counters"] = {"missed_count": 3, "false_count": 7}
+        self.assertIn("; of what it finds 3 missed, 7 false.", page.text(ranked(made)))
 
 
 class AFigure(unittest.TestCase):
