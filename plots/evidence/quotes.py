@@ -8,7 +8,8 @@ The list of NAME.md is results/quotes/NAME.py. Its function `quotes` makes the t
     <!-- generated: NAME -->
     <!-- end -->
 
-of the document (Document.table, or Document.block for other lines), and names the few sentences that quote a number, with its value (Document.says).
+of the document (Document.table, or Document.block for other lines), and names the few sentences that quote a number, with its value
+(Document.says).
 """
 import argparse
 import json

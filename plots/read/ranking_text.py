@@ -160,7 +160,8 @@ def of_cells(cells: Sequence[Cell]) -> str:
         return ""
     races = {cell.raw.get("sampling", {}).get("race", "") for cell in measured}
     objective = {"query": "query", "memory": "memory"}.get(races.pop() if len(races) == 1 else "", "")
-    return terminal.prose(sentence(ranked(cells, objective or ("build" if operation == "build" else "frame")))) + "\n"
+    said = sentence(ranked(cells, objective or ("build" if operation == "build" else "frame")))
+    return terminal.prose(said) + "\n" if said else ""
 
 
 def repeated(row: Row, scene: str, words: Sequence[str]) -> str:

@@ -188,6 +188,7 @@ class ASentence(unittest.TestCase):
         other["collider"]["options"]["narrow"] = "exact"
         self.assertEqual(of(*two, other), "")
         self.assertEqual(of(cell(), cell("karras")), "")  # from sorted leaves
+        self.assertEqual(of(frame("front", NARROW), frame("front", NARROW, "karras")), "")  # of one frame
         queries = [{**one, "sampling": {"stopped": "most", "caches": "hot", "race": "query"}} for one in two]
         self.assertIn("50.0 us a query", of(*queries))
 
