@@ -111,8 +111,13 @@ public:
                              .may_replace = [](const std::string&) { return true; }});
         // Existing values are kept. An existing file that is no tuning file is an error.
         TuningFile file = output.was_there() ? read_tuning(path) : std::move(named.file);
-        tuning_of(file, device, path.string());  // throws now if the file is for another device
+        if (!output.was_there() && file.device != device.name())
+            file = {};  // of the nearest device
+        else if (!file.values.empty() && file.device != device.name())
+            throw Unavailable(path.string() + ": its values are of '" + file.device +
+                              "', and the device is '" + device.name() + "'");
         file.device = device.name();
+        file.kind = kind_of(device);
         file.driver = device_facts(device).driver;
         tune_all(session, output, file);
         std::cout << "written: " << path.string() << '\n';

@@ -3,9 +3,13 @@
 
 #include <re2/re2.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
+#include <limits>
 #include <vector>
 
 #include "baselines/parameters.h"
@@ -18,11 +22,14 @@
 
 namespace bvhbench {
 
+BVHBENCH_TO_JSON(DeviceKind, family, units, group_memory)
 BVHBENCH_TO_JSON(TunedValue, value, target, scene, ratio, samples, found_at, commit)
 
 namespace {
 
 constexpr auto format = "tuning 1";
+constexpr std::uint64_t most_units = 1 << 20, most_group_memory = std::uint64_t{1} << 32;
+const std::initializer_list<const char*> embedded_files = {BVHBENCH_TUNINGS};
 
 /// Returns the parameter of that name; nullptr if there is none.
 const Parameter* parameter_called(std::string_view name)
@@ -64,10 +71,17 @@ TuningFile file_of(const Json& json, const std::string& origin)
 {
     if (!json.is_object() || !json.contains("format") || json["format"] != format)
         throw BadUsage("'format' is not \"" + std::string(format) + '"');
-    refuse_unknown_keys(json, {"format", "device", "driver", "values"}, "a tuning file");
+    refuse_unknown_keys(json, {"format", "device", "driver", "kind", "values"}, "a tuning file");
     TuningFile file;
     file.device = text_in(json, "device");
     file.driver = text_in(json, "driver");
+    if (json.contains("kind")) {
+        const Json& kind = json["kind"];
+        refuse_unknown_keys(kind, {"family", "units", "group_memory"}, "'kind'");
+        file.kind.family = text_at(kind, "family");
+        read_number(kind, "units", 1, most_units, file.kind.units);
+        read_number(kind, "group_memory", 1, most_group_memory, file.kind.group_memory);
+    }
     if (!json.contains("values") || !json["values"].is_object())
         throw BadUsage("'values' must be an object of parameters");
     for (const auto& [name, value] : json["values"].items())
@@ -123,6 +137,8 @@ TuningFile read_tuning(const std::filesystem::path& path)
 std::string tuning_text(const TuningFile& file)
 {
     Json json = {{"format", format}, {"device", file.device}, {"driver", file.driver}};
+    if (!file.kind.family.empty())
+        json["kind"] = file.kind;
     json["values"] = Json::object();
     for (const auto& [name, value] : file.values)
         json["values"][name] = value;
@@ -131,7 +147,8 @@ std::string tuning_text(const TuningFile& file)
 
 Tuning tuning_of(const TuningFile& file, const Device& device, const std::string& origin)
 {
-    if (!file.values.empty() && file.device != device.name())
+    const bool is_near = !file.kind.family.empty() && file.kind.family == kind_of(device).family;
+    if (!file.values.empty() && file.device != device.name() && !is_near)
         throw Unavailable(origin + ": its values are of '" + file.device +
                           "', and the device is '" + device.name() + "'");
     Tuning tuning(origin);
@@ -150,20 +167,66 @@ std::optional<std::string> tuning_folder(const std::optional<std::string>& optio
     return option || variable == nullptr ? option : std::optional<std::string>(variable);
 }
 
+DeviceKind kind_of(const Device& device)
+{
+    DeviceKind kind{{},
+                    device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(),
+                    device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>()};
+    const auto word = [&](cl_device_info what) {  // of cl_nv_device_attribute_query
+        cl_uint value = 0;
+        return clGetDeviceInfo(device.cl(), what, sizeof value, &value, nullptr) == CL_SUCCESS
+                   ? std::to_string(value)
+                   : std::string();
+    };
+    if (const std::string major = word(0x4000), minor = word(0x4001); !major.empty())
+        kind.family = "sm_" + major + minor;
+    return kind;
+}
+
+bool is_nearer(const DeviceKind& one, const DeviceKind& other, const DeviceKind& own)
+{
+    const auto distance = [&](const DeviceKind& kind) {
+        const bool suits = !kind.family.empty() && kind.family == own.family &&
+                           kind.group_memory <= own.group_memory;
+        return !suits ? std::numeric_limits<double>::infinity()
+                      : std::abs(std::log(static_cast<double>(kind.units) /
+                                          static_cast<double>(own.units)));
+    };
+    return distance(one) < distance(other);
+}
+
 NamedTuning tuning_file_for(const Device& device, const std::optional<std::string>& folder)
 {
-    const std::filesystem::path path = std::filesystem::path(folder.value_or("results/tuning")) /
-                                       (device_slug(device.name()) + ".json");
-    if (!folder) {
-        if (const auto text = embedded_tuning(path.string()))
-            return {parse_tuning(*text, path.string()), path.string()};
-    } else if (!folder->empty()) {
-        if (!std::filesystem::is_directory(*folder))
-            throw Unavailable("tuning: there is no folder '" + *folder + "'");
-        if (std::filesystem::exists(path))
-            return {read_tuning(path), path.string()};
+    if (folder && !folder->empty() && !std::filesystem::is_directory(*folder))
+        throw Unavailable("tuning: there is no folder '" + *folder + "'");
+    std::vector<std::filesystem::path> paths;
+    if (!folder)
+        paths.assign(embedded_files.begin(), embedded_files.end());
+    else if (!folder->empty())
+        for (const auto& entry : std::filesystem::directory_iterator(*folder))
+            if (entry.path().extension() == ".json")
+                paths.push_back(entry.path());
+    const auto file_at = [&](const std::filesystem::path& path) {
+        return folder ? read_tuning(path)
+                      : parse_tuning(embedded_tuning(path.string()).value(), path.string());
+    };
+    const std::string own = device_slug(device.name());
+    for (const auto& path : paths)
+        if (path.stem() == own)
+            return {file_at(path), path.string()};
+    std::ranges::sort(paths);
+    const DeviceKind kind = kind_of(device);
+    NamedTuning found{{}, "none"};
+    for (const auto& path : paths) {
+        if (kind.family.empty())
+            break;
+        TuningFile file = file_at(path);
+        if (is_nearer(file.kind, found.file.kind, kind))
+            found = {std::move(file), path.string()};
     }
-    return {{}, "none"};
+    if (!found.file.device.empty())
+        found.origin += ", of " + found.file.device + ", the nearest";
+    return found;
 }
 
 }  // namespace bvhbench

@@ -29,9 +29,24 @@ struct TunedValue {
     bool operator==(const TunedValue&) const = default;
 };
 
+/// What a device is, where that is known. Values of one suit others of its family.
+struct DeviceKind {
+    std::string family;              ///< "sm_90" of an NVIDIA H100 and H200; empty: not known
+    std::uint64_t units = 0;         ///< compute units
+    std::uint64_t group_memory = 0;  ///< bytes of local memory that a work-group may have
+    bool operator==(const DeviceKind&) const = default;
+};
+
+DeviceKind kind_of(const Device& device);
+
+/// True if values of `one` suit a device of kind `own` better than those of `other`: it is of the same family, its groups have no more
+/// memory, and its number of compute units is nearer.
+bool is_nearer(const DeviceKind& one, const DeviceKind& other, const DeviceKind& own);
+
 /// Contents of a tuning file.
 struct TuningFile {
     std::string device, driver;
+    DeviceKind kind = {};
     std::map<std::string, TunedValue, std::less<>> values;  ///< by parameter name
 };
 
@@ -46,16 +61,17 @@ std::string tuning_text(const TuningFile& file);
 /// Reads and parses a file. Throws Unavailable, also if it cannot be read.
 TuningFile read_tuning(const std::filesystem::path& path);
 
-/// Returns the file's values for `device`. Throws Unavailable, naming `origin`, if the file is for another device or has a group
-/// size that this device does not support.
+/// Returns the file's values for `device`. Throws Unavailable, naming `origin`, if the file is for a device of another family or has a
+/// group size that this device does not support.
 Tuning tuning_of(const TuningFile& file, const Device& device, const std::string& origin);
 
 /// Returns the folder of tuning files: --tuning if given, else BVHBENCH_TUNING if set, else nothing, which selects the embedded
 /// files. An empty string means no tuned values.
 std::optional<std::string> tuning_folder(const std::optional<std::string>& option);
 
-/// Returns the tuning file for a device and its origin, from `folder` or the embedded files. If there is none, returns an empty
-/// file and "none". Throws Unavailable if the folder does not exist or the file is invalid.
+/// Returns the tuning file for a device and its origin, from `folder` or the embedded files: its own, or else that of the device of its
+/// family whose number of compute units is nearest, which then is named in the origin. If there is none, returns an empty file and
+/// "none". Throws Unavailable if the folder does not exist or a file is invalid.
 struct NamedTuning {
     TuningFile file;
     std::string origin;

@@ -83,8 +83,12 @@ def grouped_by_pipeline(cells: list[results.Cell], without: str = "") -> list[li
 
 
 def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
-    """Returns the pipelines of each scene, both in the file's order."""
-    scenes = results.grouped(run.frames(experiment), lambda cell: cell.scene)
+    """Returns the pipelines of each scene, both in the file's order. A scene that is there at its real step is not drawn with frames in
+    between as well."""
+    cells = run.frames(experiment)
+    real = {cell.scene_facts["name"] for cell in cells if not cell.scene_facts.get("between")}
+    scenes = results.grouped([cell for cell in cells if not cell.scene_facts.get("between") or cell.scene_facts["name"] not in real],
+                             lambda cell: cell.scene)
     return {scene: [Pipeline(scene, frames) for frames in grouped_by_pipeline(cells)] for scene, cells in scenes.items()}
 
 

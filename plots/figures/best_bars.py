@@ -1,5 +1,6 @@
 """The figure of `best`: the best builders or pipelines of each scene as bars, with stages stacked and the ratio to the best."""
 import dataclasses
+import textwrap
 from collections.abc import Callable, Sequence
 
 import matplotlib.pyplot as plt
@@ -15,6 +16,7 @@ from . import frame_bars
 
 MOST_ROWS = 15
 MOST_SCENES = 8
+TITLE = 50  # most letters of a line above a panel
 BYTES = (("tree", "tree_bytes", "#009E73"), ("scratch", "scratch_bytes", "#56B4E9"), ("query", "query_bytes", "#E69F00"),
          ("narrow phase", "narrow_bytes", "#D55E00"))
 # The name of each part of a frame, by its colour.
@@ -53,7 +55,8 @@ def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, l
     pipelines.dress_rows(axes, [label(row) for row in rows])
     axes.set_xlim(0, 1.3 * min(limit, max(wholes)))
     title = pipelines.scene_title([pipelines.Pipeline(row.first.scene, row.cells) for row in rows])
-    axes.set_title(title + " after the first" * (min(row.first.frame for row in rows) > first), loc="left")
+    title += " after the first" * (min(row.first.frame for row in rows) > first)
+    axes.set_title(textwrap.fill(title, TITLE), loc="left")
     return {(name, colour) for parts in drawn for name, colour, _ in parts}
 
 
@@ -69,7 +72,9 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
         [*((name, colour) for colour, name in PARTS.items()), REST]
-    handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
+    stages = {stage for rows in scenes for row in rows for cell in row.cells for stage in cell.samples[0]}
+    handles = [Patch(facecolor=colour, label=" + ".join(word for word in name.split(" + ") if word in stages) or name)
+               for name, colour in every if (name, colour) in there]
     height = figure.legend_above(drawing, handles)
     remarks = [*remarks, "Ratios are to the first bar by the same clock; = is no worse within noise."]
     remarks += ["Times are by the wall clock: some are from outside."] if found.by_wall and found.objective != "memory" else []

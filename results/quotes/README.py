@@ -61,8 +61,7 @@ def families(doc: Document) -> None:
     block, bvtt = ratios("block", "over oibvh-multi"), ratios("bvtt", "over oibvh-single (hilbert30)")
     doc.says("with `block` over the same trees it takes {} to {} times the best, and with `bvtt` along a Hilbert curve {} to {}",
              min(block), max(block), min(bvtt), max(bvtt))
-    by_group = [{ranking_text.family(row): row.ns for row in reversed(rows) if row.first.collider == "group"} for rows in on_h200]
-    doc.says("radix trees take {}, {} and {} times as long as implicit trees", *(of["radix trees"] / of["implicit trees"] for of in by_group))
+    listed("claims").radix_by_collider(doc)
     assert all(of["implicit trees"].ratio == 1 for of in bests[:3]), "README says that it wins on all three scenes"
 
 

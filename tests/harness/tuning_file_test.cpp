@@ -31,7 +31,7 @@ std::string with_values(const std::string& values)
 
 TuningFile some_file()
 {
-    TuningFile file{"Some Device (TM) 9000", "3.1", {}};
+    TuningFile file{"Some Device (TM) 9000", "3.1", {"sm_90", 114, 49152}, {}};
     file.values["sort.chunk_digit_bits"] = {
         11, "sort", "torus:1000", 0.875, 15, "2025-11-30T08:15:42Z", "abc"};
     file.values["walk.task_leaves"] = {32, "leaf", "bunny", 0.5, 5, "", ""};
@@ -44,7 +44,21 @@ TEST(TuningFile, ComesBackAsItWasWritten)
     const TuningFile read = parse_tuning(tuning_text(file), "test");
     EXPECT_EQ(read.device, file.device);
     EXPECT_EQ(read.driver, file.driver);
+    EXPECT_EQ(read.kind, file.kind);
     EXPECT_EQ(read.values, file.values);
+}
+
+TEST(TuningFile, SuitsTheNearestDeviceOfItsFamily)
+{
+    const DeviceKind own{"sm_90", 132, 49152};
+    const DeviceKind few{"sm_90", 60, 49152}, near{"sm_90", 114, 49152}, none{};
+    EXPECT_TRUE(is_nearer(near, few, own));
+    EXPECT_FALSE(is_nearer(few, near, own));
+    EXPECT_FALSE(is_nearer(near, near, own));
+    EXPECT_TRUE(is_nearer(few, none, own));
+    EXPECT_FALSE(is_nearer({"sm_80", 132, 49152}, none, own));
+    EXPECT_FALSE(is_nearer({"sm_90", 132, 65536}, none, own));
+    EXPECT_FALSE(is_nearer(none, none, none));
 }
 
 TEST(TuningFile, IsNamedAfterTheDevice)

@@ -1,8 +1,6 @@
-from plots.console import effects_table
 from plots.evidence.quotes import ONE_SET, Document, File, best, later_ms, ratios, us
-from plots.read import results
+from plots.read import families, results
 from plots.read.cells import Cell
-from plots.read.effects import cells_of, shares
 
 BLOCK, GROUP, LEAF = (f"{name} over oibvh-multi (hilbert30, sorted leaves)" for name in ("block", "group", "leaf"))
 BVTT, CDK18 = "bvtt (jump 2) over oibvh-multi", "bvtt (jump 1) over perfect"
@@ -74,7 +72,7 @@ def frames(doc: Document) -> None:
                       *(later_ms(file.frames(scene, asked)) for asked in (FRESH, REFIT))]), printed("table2", name.partition(",")[0])]
         for name, scene in rows_of(file).items()))
     rows = []
-    for name, scene in rows_of(file).items():
+    for name, scene in TABLE2.items():
         times = {asked: later_ms(file.frames(scene, asked)) for asked in (FRONT, *RADIX)}
         front = min(times, key=times.__getitem__)
         rows.append([name, scene.partition(",")[0], "`front`" if front == FRONT else "`front-leaf`",
@@ -97,19 +95,15 @@ def rebuild(doc: Document) -> None:
         for label, asked in rows.items()))
 
 
-def effects(doc: Document) -> None:
-    cells = cells_of(File("h200/effects").cells)
-    doc.table("effects", f"< choice, against | < level | {' | '.join(effects_table.TITLES)}", (
-        [f"{choice}, `{reference}`", f"`{level}`", *columns]
-        for choice, level, reference, *columns, _ in effects_table.rows_of_ratios(cells)))
-    doc.table("predict", "< measure | < of | " + " | ".join(effects_table.titles_of_ranks(cells)[2:]), effects_table.rows_of_ranks(cells))
-    for of_query, what in ((False, "a frame's"), (True, "a query's")):
-        by = shares(cells, of_query)
-        doc.says(f"of {what} time the collider decides {{}} %, the builder {{}} %, both together {{}} %, order and leaves {{}} %",
-                 *(100 * by[name] for name in ("collider", "builder", "builder × collider")), 100 * (by["order"] + by["leaves"]))
+def cards(doc: Document) -> None:
+    """Compares the times of the device in both files of `families`."""
+    both = [pair for pair in zip(File("h100/families").cells, File("h200/families").cells, strict=True)
+            if all(cell.has_times and families.of_cell(cell) not in families.ON_HOST for cell in pair)]
+    doc.says("each takes {} to {} of its time on the H200", *ratios(*([cell.median_ns() for cell in card] for card in zip(*both, strict=True))))
 
 
 def quotes(doc: Document) -> None:
+    cards(doc)
     doc.says("{} cells on each device", len(File("h200/agreement").cells))
     file = File("h200/table2")
     ours, *fronts = ([later_ms(file.frames(scene, asked)) for scene in TABLE2.values()] for asked in (BVTT, *RADIX))

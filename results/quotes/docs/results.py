@@ -18,6 +18,7 @@ def quotes(doc: Document) -> None:
     doc.says("By the host's clock, with copies, Embree on 16 threads takes {} to {} times as long",
              *ends(of["Embree"] / of["ours"] for of in map(of_readme.by_host, found.scenes.values())))
     listed("claims").bullets(doc)
+    listed("claims").radix_by_collider(doc)
     kd, radix = ([sah(quality, scene, asked) for scene in of_orders.SCANS] for asked in ("oibvh-multi, kd", "apetrei-fused"))
     doc.says("brings it within {} % on five scans", 100 * ratios(kd, radix)[1] - 100)
     doc.says("takes {} to {} times as long as `block` over", *ends(of_rivals.best_ratios(File("h200/rivals"))))
