@@ -34,7 +34,7 @@ def axes_of_two_cores(doc: Document) -> None:
 
 def frames(doc: Document) -> None:
     file = File("h200/accuracy-frames")
-    scenes = "unc_cloth_ball", "unc_nbody", "ipc_armadillo_rollers", "cloth-funnel:18484"
+    scenes = "unc_cloth_ball", "unc_nbody", "ipc_armadillo_rollers", "unc_cloth_funnel"
     exact = [file.frames(scene, "frames, exact") for scene in scenes]
     times = [sum(map(us, cells)) for cells in exact]
 
