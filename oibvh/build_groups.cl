@@ -10,5 +10,6 @@
 
 #include "builders/implicit/build_climbing.clh"
 #include "builders/implicit/build_groups.clh"
+#include "builders/implicit/build_meeting.clh"
 #include "builders/implicit/build_upward.clh"
 #include "builders/implicit/build_waiting.clh"

@@ -25,6 +25,15 @@ std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions
         oi_layout, Meeting::between_launches, options);
 }
 
+std::unique_ptr<Builder> make_oibvh_multi_printed(Programs& programs, const BuildOptions& options)
+{
+    return make_implicit_builder(
+        programs,
+        {"oibvh-multi-printed", "Oi-BVH, multi-kernel, as printed [Chitalu2020]",
+         BuilderCard::Runs::on_device},
+        oi_layout, Meeting::by_local_atomics, options);
+}
+
 std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options)
 {
     return make_implicit_builder(

@@ -10,6 +10,9 @@ namespace bvhbench {
 /// Algorithm 1 in several launches, within which work-groups do not interact; Appendix B plans the launches.
 std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions& options);
 
+/// The same as printed: a work-item has one node, and work-items of a group meet node by node through local atomics.
+std::unique_ptr<Builder> make_oibvh_multi_printed(Programs& programs, const BuildOptions& options);
+
 /// Algorithm 1 in one launch: above the subtrees of single groups, a few groups wait for the others where they may, else the last
 /// group to arrive below a subtree builds it.
 std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options);

@@ -49,7 +49,8 @@ private:
     }
     void enqueue_update(Queue& queue) override { enqueue(update_, queue, false); }
 
-    bool in_one_launch() const { return meeting_ != Meeting::between_launches; }
+    bool in_one_launch() const { return meeting_ != Meeting::between_launches && !is_printed(); }
+    bool is_printed() const { return meeting_ == Meeting::by_local_atomics; }
     bool waits() const { return meeting_ == Meeting::by_waiting; }
     bool climbs() const { return meeting_ == Meeting::by_climbing; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
@@ -57,10 +58,11 @@ private:
     /// Returns the group kernel for `cut`, or the work-item kernel, that reads leaves in mesh order (`from_leaves`) or nodes.
     cl::Kernel kernel(const Cut& cut, bool from_leaves) const
     {
-        const char* name = waits()                   ? "waiting"
-                           : climbs() && by_groups() ? "climbing"
-                           : in_one_launch()         ? "single"
-                                                     : "multi";
+        const char* name = waits()                       ? "waiting"
+                           : climbs() && by_groups()     ? "climbing"
+                           : is_printed() && by_groups() ? "meeting"
+                           : in_one_launch()             ? "single"
+                                                         : "multi";
         std::vector<Define> defines = {{"BOX_FORMAT", tree_.format->number},
                                        {"FROM_LEAVES", from_leaves ? 1u : 0u},
                                        {"LINES_UP", from_leaves && tree_.sorted_leaves ? 1u : 0u},

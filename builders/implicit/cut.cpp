@@ -76,7 +76,8 @@ void require_power_of_two(const char* what, uint value, uint most, const Device&
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
                std::size_t box_bytes)
 {
-    const uint items = std::max(1u, options.items);
+    const bool is_printed = meeting == Meeting::by_local_atomics;  // a work-item has one node
+    const uint items = is_printed ? 1 : std::max(1u, options.items);
     require_power_of_two("the number of items a work-item", items, 8, device);
     const uint most = most_group_size(device, items, box_bytes);
     if (options.group_size != 0) {  // explicit group sizes select the paper's groups, on a CPU too
@@ -85,13 +86,13 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
     }
     if (device.is_cpu())
         return subtrees_of_items(device, implicit_leaf_level(leaves));
-    if (meeting != Meeting::between_launches) {
+    if (meeting != Meeting::between_launches && !is_printed) {
         const bool climbs = meeting == Meeting::by_climbing;  // has no tuned group size of its own
         if (const uint tuned = climbs ? 0 : device.tuned(implicit_handoff_group_size); tuned != 0)
             return groups_of(std::min(tuned, most), items);
         return groups_of_one_launch(meeting, implicit_leaf_level(leaves), options.items, most);
     }
-    if (const uint tuned = device.tuned(implicit_group_size); tuned != 0)
+    if (const uint tuned = is_printed ? 0 : device.tuned(implicit_group_size); tuned != 0)
         return groups_of(std::min(tuned, most), items);
     return smallest_group_with_fewest_launches(implicit_leaf_level(leaves), items, most);
 }

@@ -32,6 +32,7 @@ constexpr uint implicit_used_on(uint leaves, uint level)
 /// How subtrees of one level are joined by the subtree above them.
 enum class Meeting {
     between_launches,  ///< Several launches; groups do not interact within one (the paper's multi-kernel).
+    by_local_atomics,  ///< The same as printed: work-items of a group meet node by node through local atomics.
     by_climbing,  ///< One launch; subtrees meet node by node through global atomics (the paper's single-kernel).
     by_handoff,  ///< One launch; the last of the groups below a subtree goes on with it.
     by_waiting,  ///< One launch; some groups wait for subtrees. Replaces by_handoff where groups may wait.

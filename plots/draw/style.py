@@ -42,6 +42,7 @@ LOOKS = {
     "oibvh-single": Look("#56B4E9", "o"),
     "oibvh-single-printed": Look("#56B4E9", "^", "////"),
     "oibvh-multi": Look("#0072B2", "o"),
+    "oibvh-multi-printed": Look("#0072B2", "^", "////"),
     "oibvh-wide4": Look("#0072B2", "d", "...."),
     "oibvh-wide8": Look("#0072B2", "*", "xxxx"),
     "oibvh-wide8-q8": Look("#0072B2", "P", "++++"),

@@ -68,7 +68,7 @@ def test_combinations_of_names_are_cells_of_one_run():
 
 
 def test_lists_put_the_name_first():
-    known = ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single", "oibvh-single-printed", "oibvh-multi",
+    known = ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single", "oibvh-single-printed", "oibvh-multi", "oibvh-multi-printed",
              "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference", "radix-reference", "hploc-reference"]
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
     assert [name for name in first if name in known] == known, first  # whatever docs/adding-a-builder.md adds between them

@@ -40,6 +40,7 @@ std::vector<Way> ways()
             all.push_back({make_perfect, options});
             all.push_back({make_oibvh_single, options, true});
             all.push_back({make_oibvh_single_printed, options});
+            all.push_back({make_oibvh_multi_printed, options});
         }
     for (const unsigned items : {2u, 4u, 8u}) {
         if (takes_few_cases() && items != 4)
