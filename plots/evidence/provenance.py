@@ -22,7 +22,7 @@ SKIPS = "collide/skips.cpp"  # rules, and where each is off
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
-          "collapse": ("collide/walks/collapse",),
+          "collapse": ("collide/walks/collapse", "collide/walks/line_up"), "to_device": ("baselines/radix/uploaded",),
           "narrow": ("collide/narrow/",), "near": ("collide/near",)}
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
