@@ -22,13 +22,14 @@ SKIPS = "collide/skips.cpp"  # rules, and where each is off
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
-          "collapse": ("collide/walks/collapse", "collide/walks/line_up"), "to_device": ("baselines/radix/uploaded",),
+          "collapse": ("collide/walks/collapse", "collide/walks/line_up"),
           "narrow": ("collide/narrow/",), "near": ("collide/near",)}
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
-BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh": ("oibvh/", "builders/implicit/"),
+PRINTED = "builders/implicit/build_meeting"  # in a folder of others, and one builder's alone
+BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "builders/implicit/", PRINTED), "oibvh": ("oibvh/", "builders/implicit/"),
             "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
 COLLIDERS = {"leaf": ("collide/walks/leaf", "collide/walks/line_walk", "collide/walks/wide_walk"),
@@ -120,8 +121,11 @@ def code_now() -> dict[str, str]:
 @functools.cache
 def is_changed(place: str, commit: str) -> bool:
     """True if the kernels of a place have another text than at the commit, under whatever names."""
-    then = sorted(blob_code(name) for path, name in blobs(commit).items() if path.startswith(place))
-    return then != sorted(code for path, code in code_now().items() if path.startswith(place))
+    def is_there(path: str) -> bool:
+        return path.startswith(place) and (place == PRINTED or not path.startswith(PRINTED))
+
+    then = sorted(blob_code(name) for path, name in blobs(commit).items() if is_there(path))
+    return then != sorted(code for path, code in code_now().items() if is_there(path))
 
 
 def faults(document: dict[str, Any]) -> list[str]:
