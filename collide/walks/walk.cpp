@@ -21,6 +21,9 @@ constexpr uint block_loose = 4;
 /// of a torus take 36.4 µs with two and 37.5 with one; 90,000 take 494 and 351.
 constexpr std::size_t most_shared_per_unit = 40;
 
+/// Leaves of a tree that are not in its order: line_up.cl counts places behind the numbers of inner nodes in 31 bits.
+constexpr uint most_lined_up = 1u << 30;
+
 /// Pairs that a work-item of `leaf` buffers in the form for few cores: half of its fastest cache.
 constexpr uint leaf_block_pairs = 512;
 
@@ -48,6 +51,9 @@ private:
     {
         if (by_ == By::block && tree.child_bits() != 1)
             return "block needs a binary tree";
+        if (by_ == By::block && !tree.is_in_order() && tree.leaf_count() > most_lined_up)
+            return "block lines up " + std::to_string(most_lined_up) + " leaves at most, not " +
+                   std::to_string(tree.leaf_count());
         return {};
     }
 
