@@ -49,12 +49,14 @@ std::vector<Value> values_in(const MemoryFile& file, std::uint64_t count, const 
 }
 
 constexpr std::uint64_t most_values = std::uint64_t{1} << 40;
+constexpr std::int64_t short_build_ns = 10'000'000;
 
 }  // namespace
 
 void State::start(const Input& input)
 {
     process_.reset();  // frees its memory first
+    last_build_ns_ = INT64_MAX;
     process_ = std::make_unique<Process>(library_, limits_);
     process_->ask({{"call", "create"}, {"method", method_.name}});
     const MemoryFile file(bytes_of(input.faces));
@@ -89,8 +91,12 @@ bool State::send_frame(const Input& input)
 
 void State::run(std::string_view call, Queue& queue)
 {
+    if (call == "build" && last_build_ns_ < short_build_ns)
+        process_->ask({{"call", call}});
     const Json reply = process_->ask({{"call", call}});
     const std::int64_t wall_ns = process_->wall_ns();
+    if (call == "build")
+        last_build_ns_ = wall_ns;
     queue.add(process_->reading([&] { return stages_of(reply, wall_ns); }), wall_ns);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -23,7 +24,8 @@ public:
     /// one. Not timed.
     bool send_frame(const Input& input);
 
-    /// Runs `build`, `refit` or `query`, and adds its stages and the time of the call to the queue.
+    /// Runs `build`, `refit` or `query`, and adds its stages and the time of the call to the queue. After a pause, in which others are
+    /// sampled, allocations of a library take up to twice as long as in a loop of its own: a short build runs once before, untimed.
     void run(std::string_view call, Queue& queue);
 
     /// Results of the last calls. Not timed.
@@ -49,6 +51,8 @@ private:
     std::vector<Face> faces_;    ///< of the process's mesh
     std::vector<Point> points_;  ///< of its frame; empty: none
     std::int64_t round_trip_ns_ = 0;
+    std::int64_t last_build_ns_ =
+        INT64_MAX;  ///< the first build, which compiles, has none before it
 };
 
 }  // namespace bvhbench::outside
