@@ -12,7 +12,7 @@ EXPERIMENT = "builders"
 
 @dataclass
 class Row:
-    """A builder over a scene. `best` is the frame in the least time among the colliders measured; None if none queries its tree."""
+    """A builder over a scene. `best` is the frame with the fastest query among the colliders measured; None if none queries its tree."""
 
     build: Cell
     best: Cell | None
@@ -40,17 +40,21 @@ class Row:
 
     @property
     def query_ns(self) -> float:
-        return sum(self.best.median_ns(stage) for stage in OF_QUERY) if self.best else math.nan
+        return query_ns(self.best) if self.best else math.nan
 
     @property
     def collider(self) -> str:
         return self.best.collider or "" if self.best else ""
 
 
+def query_ns(frame: Cell) -> float:
+    return sum(frame.median_ns(stage) for stage in OF_QUERY)
+
+
 def of_run(run: results.Run, experiment: str = EXPERIMENT) -> dict[str, list[Row]]:
     """Returns the rows of each scene in the file's order. A builder that has no time there has no row."""
     cells = [cell for cell in run.all_cells if cell.experiment == experiment and cell.verdict == "agrees" and cell.samples]
     frames = grouped((cell for cell in cells if cell.operation == "collide"), lambda cell: cell.key("scene", "builder"))
-    best = {key: min(there, key=Cell.median_ns) for key, there in frames.items()}
+    best = {key: min(there, key=query_ns) for key, there in frames.items()}
     rows = [Row(cell, best.get(cell.key("scene", "builder"))) for cell in cells if cell.operation == "build"]
     return grouped(rows, lambda row: row.build.scene)

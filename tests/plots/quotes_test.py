@@ -36,12 +36,12 @@ class TheDocuments(unittest.TestCase):
         rows = re.findall(r"^\| (.*) \|$", text[text.index("## Claims"):text.index("## Index")], re.MULTILINE)[2:]
         verdicts = collections.Counter[str]()
         for claim, printed, ours, verdict, command in (row.split(" | ") for row in rows):
-            verdicts[re.match("(?:confirmed in part|confirmed|not confirmed|not tested)?", verdict)[0]] += 1
-            self.assertTrue(command != "none" or verdict.startswith("not tested: "), claim)
+            verdicts[re.match("(?:confirmed in part|confirmed|not confirmed)?", verdict)[0]] += 1
+            self.assertNotEqual(command, "none", claim)
             for name in re.findall(r"`bvhbench (?:run|reproduce) ([\w-]+)`", command):
                 self.assertTrue((ROOT / "harness" / "experiments" / f"{name}.json").is_file(), claim)
-        self.assertIn("Of {} claims {confirmed} are confirmed, {confirmed in part} in part, {not confirmed} not, and {not tested} was not tested"
-                      .format(len(rows), **verdicts), text)
+        self.assertIn("Of {} claims {confirmed} are confirmed, {confirmed in part} in part and {not confirmed} not".format(len(rows), **verdicts),
+                      text)
 
 
 class AHeadline(unittest.TestCase):

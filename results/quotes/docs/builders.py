@@ -9,8 +9,8 @@ def quotes(doc: Document) -> None:
     for scene, rows in there.items():
         if scene == "happy_buddha_1087716":  # as the torus
             continue
-        doc.table(scene, "< builder | build | hierarchy | peak, MB | tree, MB | SAH | query, ms | frame, ms", (
-            [f"`{row.build.builder}`{'*' if row.build.on_host else ''}", row.rate(), row.rate("hierarchy"),
+        doc.table(scene, "< builder | build | peak, MB | tree, MB | SAH | query, ms | frame, ms", (
+            [f"`{row.build.builder}`{'*' if row.build.on_host else ''}", row.rate(),
              1e-6 * (row.reserved if math.isnan(peak := row.counter("device_peak_bytes")) else peak),
              row.counter("tree_bytes") * 1e-6, row.counter("sah_cost"),
              *([row.query_ns * 1e-6, f"{row.frame_ns * 1e-6:.3f} `{row.collider}`"] if row.best else [None, None])] for row in rows))

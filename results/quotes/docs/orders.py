@@ -16,5 +16,9 @@ def quotes(doc: Document) -> None:
     doc.table("quality", f"< mesh | {' | '.join(map(called, QUALITY))} | `kd`/radix", (
         [scene, *those, f"{those[4] / those[5]:.2f}"] for scene, those in costs.items()))
     doc.says("it is within {} % of the radix tree on all five scans", 100 * max(costs[scene][4] / costs[scene][5] for scene in SCANS) - 100)
+    doc.says("IPC's armadillo, {} and {} % worse", *(100 * sah(orders, scene, QUALITY[4]) / sah(orders, scene, QUALITY[5]) - 100
+                                                     for scene in ("unc_cloth_ball", "ipc_armadillo_rollers")))
+    builders = File("h200/builders")
+    assert sah(builders, "unc_cloth_ball", "median-split") > 0.95 * sah(orders, "unc_cloth_ball", QUALITY[4]), "orders.md says that it is no better"
     doc.table("times", "< order | triangles to tree, µs | SAH", (
         [called(asked), us(cell), cell.counters["sah_cost"]] for asked in TIMES for cell in [orders.cell("torus:2880000", asked)]))

@@ -28,6 +28,22 @@ def builds(doc: Document) -> None:
     doc.says("| {} % of the bytes of `apetrei`", 100 * sum(of("bytes", "oibvh-multi")) / sum(of("bytes", "apetrei")))
     doc.says("up to 48.1 % | {} to {} %", *(100 - 100 * one for one in ratios(of("bytes", "oibvh-multi"), of("bytes", "perfect"))[::-1]))
     doc.says("the padded tree takes {} to {} times as long", *ratios(of("us", "perfect"), of("us", "oibvh-multi")))
+    meeting, apetrei, fixed = ([us(fig8.cell(scene, name)) for scene in scenes_of(fig8)]
+                               for name in ("oibvh-multi-printed", "apetrei", "oibvh-multi"))
+    doc.says("`apetrei` takes {} to {} times as long, fixed steps without atomics {} to {}", *ratios(apetrei, meeting), *ratios(fixed, meeting))
+
+
+def parameters(doc: Document) -> None:
+    """What the paper leaves to its user: the size of a group and the levels of a step."""
+    file = File("h200/group-and-jump")
+    sizes = {scene: {int(dict(cell.options)["group_size"]): us(cell, "hierarchy") for cell in file.cells
+                     if (cell.scene, cell.called) == (scene, "oibvh-multi")} for scene in scenes_of(file)}
+    doc.says("takes {} to {} times as long with 16 as with 256, with 512 {} to {}",
+             *(end for size in (16, 512) for end in ratios([of[size] for of in sizes.values()], [of[256] for of in sizes.values()])))
+    jumps = [{int(dict(cell.collider_options)["jump"]): us(cell, "broad") for cell in file.cells if cell.scene == scene and cell.collider == "bvtt"}
+             for scene in scenes_of(file)]
+    best = [min(times, key=lambda jump: times[jump]) for times in jumps]
+    doc.says("The best are {}, {}, {}, {} on the bunny, UNC's cloth ball, a hairball and torus:2880000; with 5 a query takes {} to {} times as long", *best, *ratios([times[5] for times in jumps], map(min, (times.values() for times in jumps))))
 
 
 def frames(doc: Document) -> None:
@@ -66,6 +82,7 @@ def frames(doc: Document) -> None:
 
 def quotes(doc: Document) -> None:
     builds(doc)
+    parameters(doc)
     frames(doc)
     of_claims.rows(doc)
     table4, fig13 = File("h200/table4"), File("h200/fig13")
