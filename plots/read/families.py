@@ -8,7 +8,7 @@ BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfec
             ("karras", "radix trees"), ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"),
             ("hploc", "clustered trees"), ("heap-median", "host builders"),
             ("median-split", "host builders"), ("sah-binned", "host builders"), ("embree", "Embree"), ("fcl", "FCL"))
-# Families whose trees are on the host, where no collider of the device queries them.
+# Families whose trees are made on the host.
 ON_HOST = ("host builders", "Embree", "FCL")
 OWN_LEAVES = ("wide trees", *ON_HOST)  # keep leaf boxes in their own way, whatever is asked
 # Colliders that make a family by themselves, whatever tree they use.

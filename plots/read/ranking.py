@@ -1,7 +1,8 @@
 """Ranks builders or pipelines by time or by an amount, over one scene or several.
 
 Times are those of the stages. If one of the cells is from outside, all times are by the wall clock: a method from outside says itself
-what its stages took, and bvhbench measures its calls.
+what its stages took, and bvhbench measures its calls. Between a method of the host and one of the device, ratios are by the host's clock,
+with copies.
 
 Times of cells that lost a race (docs/races.md) were taken while the machine may have been faster or slower than
 later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
@@ -11,7 +12,7 @@ Frames are compared over those after the first (cells.later). On a scene with on
 """
 import functools
 import math
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -57,6 +58,15 @@ class Row:
     def amount(self, objective: str) -> float:
         """Returns the mean amount that an objective of AMOUNTS ranks by, or 0 for a time."""
         return mean([AMOUNTS[objective](cell) for cell in self.cells]) if objective in AMOUNTS else 0
+
+    @property
+    def is_on_host(self) -> bool:
+        return families.of_cell(self.first) in families.ON_HOST
+
+    def host_ns(self, frames: Container[int]) -> float:
+        """Returns the mean over these frames by the host's clock, with the copies of vertices to the device and of what is found back."""
+        return mean([(cell.wall_ns or cell.median_ns()) + sum(cell.counters.get(f"{copy}_ns", 0) for copy in ("upload", "read_back"))
+                     for cell in self.cells if cell.frame in frames])
 
     @property
     def is_right(self) -> bool:
@@ -243,6 +253,8 @@ def rows_of_scene(cells: list[Cell], measure: Measure) -> list[Row]:
         there = {cell.frame for cell in row.cells} & {cell.frame for cell in best.cells}
         own, least = row.amount(objective), best.amount(objective)
         row.ratio = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
+        if there and not measure.by_wall and row.is_on_host != best.is_on_host:
+            row.ratio = row.host_ns(there) / best.host_ns(there)
         if objective in AMOUNTS:
             row.ratio = own / least if least > 0 else 1 if own == least else math.inf
         row.tied = own == least and is_tied(row, best, measure)

@@ -250,6 +250,12 @@ class AMethodFromOutside(InFolder):
         beaten = walled(frame("fast", [1] * 3, stopped="beaten"), [130] * 3, outside=True)
         self.assertEqual([(row.first.collider, row.ns) for row in ranked(best, beaten).rows], [("group", 150000), ("fast", 195000)])
 
+    def test_is_compared_with_a_library_of_the_host_by_its_clock_and_with_copies(self) -> None:
+        embree, ours = walled(frame("embree", [3000] * 5), [4000] * 5), walled(frame("group", [1000] * 5), [1200] * 5)
+        ours["counters"] |= {"upload_ns": 300_000, "read_back_ns": 100_000}
+        found = ranked(embree, ours, walled(frame("leaf", [1500] * 5), [9000] * 5))
+        self.assertEqual([(row.first.collider, row.ratio) for row in found.rows], [("group", 1), ("leaf", 1.5), ("embree", 4000 / 1600)])
+
     def test_samples_without_a_wall_clock_count_by_their_stages(self) -> None:
         self.assertEqual(names(ranked(self.slip, frame("leaf", NARROW))), ["leaf", "fast"])
 
