@@ -71,6 +71,12 @@ bool tells(const Cell& cell)
 
 }  // namespace
 
+bool starts_from_frame_before(const ColliderChoice& collider)
+{
+    return collider.update == FrameUpdate::refit ||
+           (collider.update == FrameUpdate::automatic && find_collider(collider.name).refits);
+}
+
 double bytes_held(const Cell& cell)
 {
     const auto counter = [&](const char* name) {
@@ -134,7 +140,8 @@ Contest::Place Contest::compare(const Cell& cell, const std::vector<StageTime>& 
 
 std::string Contest::why_not(const Cell& cell) const
 {
-    if (race_ == Race::none || race_ == Race::memory || best_ns_ == 0)
+    if (race_ == Race::none || race_ == Race::memory || best_ns_ == 0 ||
+        starts_from_frame_before(cell.collider))
         return "";
     double sum = 0;
     for (const std::string stage : stages)
@@ -167,7 +174,9 @@ void Contest::end_frame(std::span<const Cell> cells)
         return;
     sums_.resize(cells.size(), 0);
     for (std::size_t k = 0; k < cells.size(); ++k)
-        sums_[k] += value_of(cells[k]);
+        sums_[k] += starts_from_frame_before(cells[k].collider)
+                        ? std::numeric_limits<double>::quiet_NaN()
+                        : value_of(cells[k]);
     // Another frame may take any number of times as long.
     least_.clear();
     best_ns_ = 0;

@@ -6,6 +6,7 @@ import tempfile
 from typing import Any
 
 from ..console import best_table as page
+from ..console import run as circumstances
 from ..files import documents, output
 from ..files.output import WrongUsage
 from ..files.reserved import is_replaced, reserved
@@ -62,6 +63,7 @@ def main(words: list[str]) -> int:
     run = results.Run(pathlib.Path(arguments.out), document)
     found = ranking.ranked(run.all_cells, plan.objective)
     print(page.text(found, arguments.all), end="")
+    print(circumstances.untuned(run), end="")
     if found.rows:
         print("".join(f"again, alone: {line}\n" for line in repeated(plan, found)), end="")
     figure = drawn(run, found, picture, arguments.force) if picture and found.rows else ""

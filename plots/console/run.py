@@ -2,6 +2,8 @@
 from ..read import results
 from ..words.tables import counted, duration
 
+NEAREST = ", the nearest"  # how the origin of values of another device ends
+
 
 def text(run: results.Run) -> str:
     facts = run.facts
@@ -25,6 +27,15 @@ def text(run: results.Run) -> str:
     if run.costs != results.USUAL_COSTS:
         lines.append("costs in sah_cost and epo: " + results.costs_text(run.costs))
     return "".join(f"{line}\n" for line in lines)
+
+
+def untuned(run: results.Run) -> str:
+    """Returns a line if the numbers that kernels are cut up by were not found on this device; empty if they were."""
+    origin = run.facts.get("tuning", {}).get("from", "none")
+    if origin != "none" and not origin.endswith(NEAREST):
+        return ""
+    whose = "the defaults" if origin == "none" else f"from {origin}"
+    return f"not tuned on this device: values are {whose}; `bvhbench tune` searches better ones (docs/tuning.md)\n"
 
 
 def merged(run: results.Run) -> str:

@@ -16,7 +16,8 @@ to=build/fuzz
 mkdir -p "$to"
 
 flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-sanitize-recover=undefined -I.
-    -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1 '-DBVHBENCH_EXPERIMENTS="fig8"')
+    -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1 '-DBVHBENCH_EXPERIMENTS="fig8"'
+    '-DBVHBENCH_TUNINGS="none.json"')
 objects=()
 for source in scenes/formats/{formats,gltf,gltf_file,gltf_nodes,obj,off,ply,ply_header,polygons,stl,text}.cpp scenes/{catalog,doubles,face_order,facts,finish,ground_truth,mesh_file,sequence,sequence_facts}.cpp \
     harness/choice/{choices,experiment,experiment_lists,scene_choice}.cpp plugins/protocol.cpp \

@@ -126,6 +126,25 @@ TEST(Contest, WhoIsFarBehindOverTheFramesIsLeftBehind)
         << contest.why_lost(1);
 }
 
+TEST(Contest, AFirstFrameDoesNotDecideOverFrontsAndRefits)
+{
+    Contest contest(Race::whole);
+    const std::vector cells = {cell("oibvh-multi", "morton30", "group", 0, 0, 100),
+                               cell("karras", "morton30", "front", 0, 0, 900),
+                               cell("none", "morton30", "embree-refit", 0, 0, 900)};
+    for (const Cell& one : cells)
+        contest.compare(one);
+    EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "front")), "");
+    contest.end_frame(cells);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        EXPECT_EQ(contest.why_lost(k), "") << k;
+
+    ColliderChoice front = cells[1].collider;
+    EXPECT_TRUE(starts_from_frame_before(front));
+    front.update = FrameUpdate::rebuild;
+    EXPECT_FALSE(starts_from_frame_before(front));
+}
+
 TEST(Contest, OfMemoryNothingIsKnownBeforeACellIsRun)
 {
     Contest contest(Race::memory);

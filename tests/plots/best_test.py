@@ -7,6 +7,7 @@ from typing import Any
 from base import ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds the source root to sys.path
 
 from plots.console import best_table as page
+from plots.console import run as circumstances
 from plots.draw import style
 from plots.figures import best_bars, overview
 from plots.racing import candidates
@@ -210,6 +211,16 @@ def walled(made: Raw, walls: list[int], round_trip: int = 0, outside: bool = Fal
         made["outside"] = {"name": made["collider"]["name"], "library": "Theirs", "version": "1", "licence": "MIT", "device": "host",
                            "file": "theirs.py", "as": "program"}
     return made
+
+
+class OfADevice(InFolder):
+    def test_that_was_not_tuned_is_said(self) -> None:
+        for origin, said in (("none", "values are the defaults"), ("h.json, of H, the nearest", "values are from h.json, of H, the nearest")):
+            made = document(frame("group", [9] * 5))
+            made["run"]["tuning"] = {"from": origin, "values": {}}
+            self.assertIn(said, circumstances.untuned(results.load(self.written(made))))
+        made["run"]["tuning"]["from"] = "h.json"
+        self.assertEqual(circumstances.untuned(results.load(self.written(made))), "")
 
 
 class AMethodFromOutside(InFolder):
