@@ -77,8 +77,8 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
                std::size_t box_bytes)
 {
     const bool is_printed = meeting == Meeting::by_local_atomics;  // a work-item has one node
-    const uint items = is_printed ? 1 : std::max(1u, options.items);
-    require_power_of_two("the number of items a work-item", items, 8, device);
+    const uint items = std::max(1u, options.items);
+    require_power_of_two("the number of items a work-item", items, is_printed ? 1 : 8, device);
     const uint most = most_group_size(device, items, box_bytes);
     if (options.group_size != 0) {  // explicit group sizes select the paper's groups, on a CPU too
         require_power_of_two("a group size", options.group_size, most, device);

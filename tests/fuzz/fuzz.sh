@@ -27,7 +27,7 @@ for source in scenes/formats/{formats,gltf,gltf_file,gltf_nodes,obj,off,ply,ply_
     [[ $object -nt $source ]] || clang++-14 "${flags[@]}" -fsanitize=fuzzer-no-link -c "$source" -o "$object"
 done
 libraries=()
-for room in harness plugins cluster scenes baselines collide oibvh builders device geometry; do
+for room in harness plugins cluster scenes process baselines collide oibvh builders device geometry; do
     libraries+=("$from/$room/lib$room.a")
 done
 libraries+=($(find "$from/CMakeFiles/kernels.dir" -name "*.o") -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lccd -lgmp -lmpfr -ltbb -lmpi -lpthread -ldl)

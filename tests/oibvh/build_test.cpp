@@ -127,6 +127,7 @@ TEST(OiBuilders, GiveTheSameTreeEveryTime)
 TEST(OiBuilders, RefuseANumberOfItemsThatIsNoPowerOfTwo)
 {
     EXPECT_THROW(make_oibvh_multi(bench().programs, {.items = 3}), BadUsage);
+    EXPECT_THROW(make_oibvh_multi_printed(bench().programs, {.items = 2}), BadUsage);
 }
 
 }  // namespace
