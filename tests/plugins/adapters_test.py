@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Tests the adapter of Bullet: its pairs and its tree are right, and what it cannot take it refuses.
+"""Tests the adapter of Bullet: its pairs and its tree are right, and what it cannot take it refuses. Times it in plugin_loop.
 
-Usage: adapters_test.py <bvhbench> <result schema> <adapter of Bullet>"""
+Usage: adapters_test.py <bvhbench> <result schema> <adapter of Bullet> <plugin_loop>"""
 import pathlib
 import re
+import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
@@ -44,6 +45,13 @@ def test_the_tree_is_judged():
     cell, = valid("b.json")["cells"]
     assert cell["check"]["verdict"] == "agrees" and cell["check"]["against"] == "contract"
     assert cell["counters"]["sah_cost"] > 0
+
+
+def test_the_loop_times_all_calls_without_bvhbench():
+    pathlib.Path("two.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
+    done = subprocess.run([sys.argv[4], BULLET, "two.obj", "3"], capture_output=True, text=True)
+    assert done.returncode == 0 and re.search(r"^bullet-dbvt:  build [\d.]+  query [\d.]+$", done.stderr, re.MULTILINE), done
+    assert subprocess.run([sys.argv[4], "two.obj", "two.obj"], capture_output=True).returncode == 2
 
 
 sys.exit(main(globals()))
