@@ -73,6 +73,8 @@ bool tells(const Cell& cell)
 
 bool starts_from_frame_before(const ColliderChoice& collider)
 {
+    if (collider.name.empty())  // a build
+        return false;
     return collider.update == FrameUpdate::refit ||
            (collider.update == FrameUpdate::automatic && find_collider(collider.name).refits);
 }

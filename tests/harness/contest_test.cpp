@@ -141,6 +141,7 @@ TEST(Contest, AFirstFrameDoesNotDecideOverFrontsAndRefits)
 
     ColliderChoice front = cells[1].collider;
     EXPECT_TRUE(starts_from_frame_before(front));
+    EXPECT_FALSE(starts_from_frame_before({}));
     front.update = FrameUpdate::rebuild;
     EXPECT_FALSE(starts_from_frame_before(front));
 }
