@@ -3,7 +3,7 @@
 // Calls the methods of a plug-in in a plain loop, without bvhbench, and prints the medians of their stages in microseconds: what a
 // library takes in a program of its own.
 //
-//     loop PLUGIN MESH.obj [CALLS]
+//     plugin_loop PLUGIN MESH.obj [CALLS]
 #include <bvhbench/plugin.h>
 
 #include <dlfcn.h>
@@ -23,21 +23,24 @@ struct Mesh {
     std::vector<uint32_t> faces;
 };
 
-/// Reads lines `v x y z` and `f a b c`, with vertices counted from 1.
+/// Reads lines `v x y z` and `f a b c`, with vertices counted from 1. Of a file with others the mesh is empty.
 Mesh read_mesh(const char* path)
 {
     Mesh mesh;
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {
         std::istringstream words(line);
-        std::string kind;
-        words >> kind;
-        if (float x; kind == "v")
-            while (words >> x)
-                mesh.points.push_back(x);
-        if (uint32_t k; kind == "f")
-            while (words >> k)
-                mesh.faces.push_back(k - 1);
+        std::string kind, rest;
+        float x, y, z;
+        uint32_t a, b, c;
+        if (!(words >> kind) || kind[0] == '#')
+            continue;
+        if (kind == "v" && words >> x >> y >> z && !(words >> rest))
+            mesh.points.insert(mesh.points.end(), {x, y, z});
+        else if (kind == "f" && words >> a >> b >> c && !(words >> rest))
+            mesh.faces.insert(mesh.faces.end(), {a - 1, b - 1, c - 1});
+        else
+            return {};
     }
     return mesh;
 }
@@ -94,11 +97,15 @@ int main(int argc, char** argv)
                                                 dlsym(library, "bvhbench_plugin_entry"));
     const bvhbench_plugin* const plugin = entry == nullptr ? nullptr : entry(BVHBENCH_PLUGIN_ABI);
     if (plugin == nullptr) {
-        std::fprintf(stderr, "Usage: loop PLUGIN MESH.obj [CALLS]\n%s\n",
+        std::fprintf(stderr, "Usage: plugin_loop PLUGIN MESH.obj [CALLS]\n%s\n",
                      argc > 2 ? "the plug-in cannot be loaded" : "");
         return 2;
     }
     const Mesh mesh = read_mesh(argv[2]);
+    if (mesh.faces.empty()) {
+        std::fprintf(stderr, "%s has not lines `v x y z` and `f a b c` alone\n", argv[2]);
+        return 3;
+    }
     bool is_done = true;
     for (uint32_t k = 0; k < plugin->method_count; ++k)
         is_done =

@@ -38,7 +38,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
         return;
     Input input = upload_frame(session, scene.with_frame(frames.first),
                                scene.later.empty() ? frames.first : 0);
-    Contest contest(task.sampling.race);
+    Contest contest(task.sampling.race, frames.end - frames.first > 1 && scene.later.empty());
     std::vector<PipelineState> all;
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});

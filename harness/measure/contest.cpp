@@ -71,12 +71,13 @@ bool tells(const Cell& cell)
 
 }  // namespace
 
-bool starts_from_frame_before(const ColliderChoice& collider)
+bool Contest::can_judge(const ColliderChoice& collider) const
 {
-    if (collider.name.empty())  // a build
-        return false;
-    return collider.update == FrameUpdate::refit ||
-           (collider.update == FrameUpdate::automatic && find_collider(collider.name).refits);
+    const bool keeps =
+        has_later_frames_ &&
+        (collider.update == FrameUpdate::refit ||
+         (collider.update == FrameUpdate::automatic && find_collider(collider.name).refits));
+    return !keeps;
 }
 
 double bytes_held(const Cell& cell)
@@ -142,8 +143,7 @@ Contest::Place Contest::compare(const Cell& cell, const std::vector<StageTime>& 
 
 std::string Contest::why_not(const Cell& cell) const
 {
-    if (race_ == Race::none || race_ == Race::memory || best_ns_ == 0 ||
-        starts_from_frame_before(cell.collider))
+    if (race_ == Race::none || race_ == Race::memory || best_ns_ == 0 || !can_judge(cell.collider))
         return "";
     double sum = 0;
     for (const std::string stage : stages)
@@ -160,7 +160,7 @@ std::string Contest::why_not(const Cell& cell) const
 
 double Contest::value_of(const Cell& cell) const
 {
-    if (!tells(cell))
+    if (!tells(cell) || !can_judge(cell.collider))
         return std::numeric_limits<double>::quiet_NaN();
     if (race_ == Race::memory)
         return bytes_held(cell);
@@ -176,9 +176,7 @@ void Contest::end_frame(std::span<const Cell> cells)
         return;
     sums_.resize(cells.size(), 0);
     for (std::size_t k = 0; k < cells.size(); ++k)
-        sums_[k] += starts_from_frame_before(cells[k].collider)
-                        ? std::numeric_limits<double>::quiet_NaN()
-                        : value_of(cells[k]);
+        sums_[k] += value_of(cells[k]);
     // Another frame may take any number of times as long.
     least_.clear();
     best_ns_ = 0;

@@ -16,16 +16,19 @@
 
 namespace bvhbench {
 
-/// True if a collider starts from a tree or front that it kept of the frame before. Its first frame tells nothing of later ones.
-bool starts_from_frame_before(const ColliderChoice& collider);
-
 /// Returns the bytes that the builder, collider and narrow phase of a measured cell hold.
 double bytes_held(const Cell& cell);
 
 class Contest {
 public:
-    /// Without a race, no cell is ever left out.
-    explicit Contest(Race race = Race::none) : race_(race) {}
+    /// Without a race, no cell is ever left out. `has_later_frames`: over the same triangles.
+    explicit Contest(Race race = Race::none, bool has_later_frames = false)
+        : race_(race), has_later_frames_(has_later_frames)
+    {}
+
+    /// False if a collider starts in later frames from a tree or front that it keeps: its first frame tells nothing of them. It is
+    /// never left out.
+    bool can_judge(const ColliderChoice& collider) const;
 
     enum class Place {
         in_the_race,
@@ -46,14 +49,14 @@ public:
     /// Equal trees are built from equal leaves and queried alike. So the stages before `hierarchy` are known from any builder of
     /// the same tree with the same options, `hierarchy` from the same builder along any order, and `broad` from the same
     /// collider over the same tree. Over the same kind of tree along another order, `broad` counts a third of the least known time.
-    /// An unknown stage counts as 0. Nothing is known of what starts from the frame before.
+    /// An unknown stage counts as 0.
     std::string why_not(const Cell& cell) const;
 
     /// In a race, writes the counters sah_inner and sah_leaf of the tree that a pipeline queried, if it is of one object.
     void count_areas(const Pipeline& pipeline, const Input& input, Cell& cell) const;
 
     /// Takes all cells of a frame, in the same order for each frame, after they were sampled. What is known of stages and of the
-    /// best ends with the frame. A collider that starts from the frame before is never left behind.
+    /// best ends with the frame.
     void end_frame(std::span<const Cell> cells);
 
     /// Returns why the cell number `k` need not be measured in later frames: over the frames so far it takes more than `lost`
@@ -73,6 +76,7 @@ private:
     double value_of(const Cell& cell) const;        ///< what the race is for, of a measured cell
 
     Race race_;
+    bool has_later_frames_;
     std::map<std::string, double> least_;  ///< nanoseconds of each stage under its key
     double best_ns_ = 0;                   ///< of the first samples; 0: none yet
     std::vector<double>

@@ -112,7 +112,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             frame.contest.count_areas(*one.pipeline, input, cell);
         };
         if (engine.sample_first(measurement, frame.contest) &&
-            !starts_from_frame_before(one.choice.collider))
+            frame.contest.can_judge(one.choice.collider))
             one.pipeline.reset();  // it is far behind; frees its memory
     }
     verdict.wait();  // needed even if no pipeline has asked for it

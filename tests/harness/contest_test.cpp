@@ -126,24 +126,27 @@ TEST(Contest, WhoIsFarBehindOverTheFramesIsLeftBehind)
         << contest.why_lost(1);
 }
 
-TEST(Contest, AFirstFrameDoesNotDecideOverFrontsAndRefits)
+TEST(Contest, AFirstFrameDecidesOverFrontsAndRefitsOnlyIfNoneFollows)
 {
-    Contest contest(Race::whole);
     const std::vector cells = {cell("oibvh-multi", "morton30", "group", 0, 0, 100),
                                cell("karras", "morton30", "front", 0, 0, 900),
                                cell("none", "morton30", "embree-refit", 0, 0, 900)};
-    for (const Cell& one : cells)
-        contest.compare(one);
-    EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "front")), "");
-    contest.end_frame(cells);
-    for (std::size_t k = 0; k < cells.size(); ++k)
-        EXPECT_EQ(contest.why_lost(k), "") << k;
+    for (const bool has_later_frames : {false, true}) {
+        Contest contest(Race::whole, has_later_frames);
+        for (const Cell& one : cells)
+            contest.compare(one);
+        EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "front")).empty(),
+                  has_later_frames);
+        contest.end_frame(cells);
+        EXPECT_EQ(contest.why_lost(0), "");
+        for (const std::size_t k : {1u, 2u})
+            EXPECT_EQ(contest.why_lost(k).empty(), has_later_frames) << k;
 
-    ColliderChoice front = cells[1].collider;
-    EXPECT_TRUE(starts_from_frame_before(front));
-    EXPECT_FALSE(starts_from_frame_before({}));
-    front.update = FrameUpdate::rebuild;
-    EXPECT_FALSE(starts_from_frame_before(front));
+        ColliderChoice front = cells[1].collider;
+        EXPECT_EQ(contest.can_judge(front), !has_later_frames);
+        front.update = FrameUpdate::rebuild;
+        EXPECT_TRUE(contest.can_judge(front));
+    }
 }
 
 TEST(Contest, OfMemoryNothingIsKnownBeforeACellIsRun)

@@ -52,6 +52,8 @@ def test_the_loop_times_all_calls_without_bvhbench():
     done = subprocess.run([sys.argv[4], BULLET, "two.obj", "3"], capture_output=True, text=True)
     assert done.returncode == 0 and re.search(r"^bullet-dbvt:  build [\d.]+  query [\d.]+$", done.stderr, re.MULTILINE), done
     assert subprocess.run([sys.argv[4], "two.obj", "two.obj"], capture_output=True).returncode == 2
+    pathlib.Path("quad.obj").write_text(pathlib.Path("two.obj").read_text() + "f 1 2 3 4\n")
+    assert subprocess.run([sys.argv[4], BULLET, "quad.obj"], capture_output=True).returncode == 3
 
 
 sys.exit(main(globals()))

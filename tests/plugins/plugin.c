@@ -179,6 +179,11 @@ static int build(void *state, bvhbench_stages *stages)
     if (is("chatty"))
         for (int k = 0; k < 5000; ++k)
             printf("a library that prints what it does, line %d\n", k);
+    if (is("counted")) {
+        FILE *file = fopen("builds", "a");
+        fputc('x', file);
+        fclose(file);
+    }
     if (is("stopped"))
         raise(SIGSTOP);
     if (is("ends"))

@@ -78,6 +78,12 @@ def test_a_builder_is_judged_measured_by_turns_and_marked():
     assert max(orders[0]) > min(orders[1]) and max(orders[1]) > min(orders[0]), orders
 
 
+def test_a_short_build_runs_once_before_it_is_timed():
+    pathlib.Path("builds").unlink(missing_ok=True)
+    agree(cells("build", *wrong("--plugin", "counted"), "--builder", "halves-counted", *QUICK), "halves-counted")
+    assert len(pathlib.Path("builds").read_text()) > 7  # which are timed or checked
+
+
 def test_a_collider_finds_the_pairs_of_the_oracle():
     found = cells("collide", "--plugin", GOOD, *wrong("--plugin", "on-device"), "--program", PLAIN, "--collider",
                   "halves,halves-refit,every-two,plain,brute,halves-on-device", "--scene", "cloth-ball:200:3", "--frames", "0:3", "--samples",

@@ -43,7 +43,8 @@ def parameters(doc: Document) -> None:
     jumps = [{int(dict(cell.collider_options)["jump"]): us(cell, "broad") for cell in file.cells if cell.scene == scene and cell.collider == "bvtt"}
              for scene in scenes_of(file)]
     best = [min(times, key=lambda jump: times[jump]) for times in jumps]
-    doc.says("The best are {}, {}, {}, {} on the bunny, UNC's cloth ball, a hairball and torus:2880000; with 5 a query takes {} to {} times as long", *best, *ratios([times[5] for times in jumps], map(min, (times.values() for times in jumps))))
+    doc.says("The best are {}, {}, {}, {} on the bunny, UNC's cloth ball, a hairball and torus:2880000; with 5 a query takes {} to {} times as long",
+             *best, *ratios([times[5] for times in jumps], map(min, (times.values() for times in jumps))))
 
 
 def frames(doc: Document) -> None:
