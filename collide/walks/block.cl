@@ -5,10 +5,11 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DTEAMS_A_TASK=1u -DBOX_FORMAT=2u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u -DTEAMS_A_TASK=2u -DCLASSES=5u
 // check: -include baselines/hploc/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u -DTEAMS_A_TASK=2u -DCLASSES=5u
+// check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u -DTEAMS_A_TASK=2u -DCLASSES=5u
 //
 // A team queries the tree with a block: up to 32 neighbouring leaves, in an implicit tree a subtree. It traverses the tree as one of
-// nodes with up to 32 children: those of an implicit tree are found by arithmetic (block_implicit.clh), those of a tree with pointers were
-// collapsed before (block_collapsed.clh). Each lane tests one child against the block's box. Leaves that overlap it are collected; once
+// nodes with up to 32 children: those of an implicit binary tree are found by arithmetic (block_implicit.clh), others were collapsed
+// before (block_collapsed.clh). Each lane tests one child against the block's box. Leaves that overlap it are collected; once
 // there are 32, each lane tests its own leaf of the block against all of them.
 //
 // In its own tree, a block is tested only against what follows it, so each pair of blocks is met once. Where the order of leaves
@@ -23,10 +24,10 @@
 // `pairs`, `counters` and the tasks are as in group_groups.cl. Teams of a group synchronise only to add up their box tests.
 #include "collide/walks/block_team.clh"
 #include "collide/walks/task.clh"
-#if TREE_IMPLICIT
-#include "collide/walks/block_implicit.clh"
-#else
+#if TREE_COLLAPSED
 #include "collide/walks/block_collapsed.clh"
+#else
+#include "collide/walks/block_implicit.clh"
 #endif
 
 #if LANES != 1u && LANES != TEAM_LANES
@@ -69,7 +70,7 @@ static inline ulong walk_block(FOREST_PARAMETERS WALK_PARAMETERS, local Team *te
         tests = task.count * (task.count - 1u) / 2u;
     }
     uint waiting = open_walk(TREE WALK, team, lane, task);
-    const uint own_end = is_own ? picked.first + task.first + task.count : 0u;
+    const uint own_end = is_own ? first_position(TREE) + task.first + task.count : 0u;
     if (share > 0u && leaves <= BLOCK)  // no nodes above the leaves to share
         waiting = 0u;
     while (waiting > 0u) {

@@ -8,8 +8,8 @@
 // below it of a lower class than its own. So if an inner node of class c has a child of a lower class, that one is a child of the wide
 // node that both are in. All such children are list c - 1, in the order of their leaves: the children of a wide node follow each other.
 //
-//     ranges   the first and the last leaf of all inner nodes; line_up.cl finds them if leaves are not in the tree's order
-//     mark     one bit for each leaf in each list: whether a subtree of the list begins there
+//     mark     the first and the last leaf of each inner node; line_up.cl finds them if leaves are not in the tree's order. One bit for
+//              each leaf in each list: whether a subtree of the list begins there
 //     count    how many bits there are before each word, and so a subtree's place in its list
 //     fill     the lists, and the objects' roots
 #include "builders/stages/chunk.clh"
@@ -28,80 +28,52 @@ static inline uint position_of(TREE_PARAMETERS, global const uint* positions, co
     return TREE_IN_ORDER ? place : positions[place];
 }
 
-// The range of leaves of inner node number k. Of a tree that is numbered by range (builders/device_tree.h), k is one of its ends, and
-// `ends` has the other; else `ends` has both. They come from two work-items, so they are words: an element of a vector cannot be
-// written alone.
+// The range of leaves of an inner node. If nodes are numbered by range (builders/device_tree.h), its number is one end: the other is kept.
 #if NUMBERED_BY_RANGE
-static inline void put_first(global uint* ends, const uint k, const uint first)
-{
-    if (k != first)
-        ends[k] = first;
-}
-
-static inline void put_last(global uint* ends, const uint k, const uint last)
-{
-    if (k != last)
-        ends[k] = last;
-}
-
-static inline uint2 range_of(global const uint* ends, const uint k)
-{
-    const uint other = ends[k];
-    return (uint2)(min(k, other), max(k, other));
-}
+typedef uint Ends;
 #else
-static inline void put_first(global uint* ends, const uint k, const uint first)
-{
-    ends[2ul * k] = first;
-}
-
-static inline void put_last(global uint* ends, const uint k, const uint last)
-{
-    ends[2ul * k + 1ul] = last;
-}
-
-static inline uint2 range_of(global const uint* ends, const uint k)
-{
-    return (uint2)(ends[2ul * k], ends[2ul * k + 1ul]);
-}
+typedef uint2 Ends;
 #endif
 
-/// Writes the ranges of leaves of all inner nodes to `ends`: a line of left children from a right child down begins at the same leaf, a
-/// line of right children from a left child down ends at the same leaf (as in ropes.cl). Zeroes the `mark_count` words of `marks`.
-kernel void find_ranges(FOREST_PARAMETERS, global uint* ends, global uint* marks,
-                        const uint mark_count)
+static inline uint2 range_of(global const Ends* ends, const uint k)
 {
-    PICK_WHOLE_TREE(void) objects;
-    for (uint k = (uint)get_global_id(0); k < mark_count; k += (uint)get_global_size(0))
-        marks[k] = 0u;
-    const Chunk chunk = own_chunk(leaves);
-    for (uint k = chunk.first; k < chunk.end; ++k) {
-        const bool is_root = k + 1u == leaves;  // item leaves - 1 handles the root's lines
-        const uint parent = is_root ? 0u : tree_inner(TREE, k);
-        const uint left = is_root ? tree_root(TREE) : tree_left(TREE, parent);
-        const uint right = is_root ? left : tree_right(TREE, parent);
-        uint last = left;
-        if (!NUMBERED_BY_RANGE || is_root)
-            while (!tree_is_leaf(TREE, last))
-                last = tree_right(TREE, last);
-        const uint end =
-            tree_is_leaf(TREE, last) ? position_of(TREE, 0, last) : tree_number(TREE, last);
-        for (uint node = left; !tree_is_leaf(TREE, node); node = tree_right(TREE, node))
-            put_last(ends, tree_number(TREE, node), end);
-        const uint begin = is_root ? 0u : end + 1u;
-        for (uint node = right; !tree_is_leaf(TREE, node); node = tree_left(TREE, node))
-            put_first(ends, tree_number(TREE, node), begin);
-    }
+#if NUMBERED_BY_RANGE
+    return (uint2)(min(k, ends[k]), max(k, ends[k]));
+#else
+    return ends[k];
+#endif
+}
+
+/// Returns the last leaf of the subtree at `node`, or the first one, by a walk down.
+static inline uint end_below(TREE_PARAMETERS, global const uint* positions, uint node,
+                             const bool is_last)
+{
+    while (!tree_is_leaf(TREE, node))
+        node = is_last ? tree_right(TREE, node) : tree_left(TREE, node);
+    return position_of(TREE, positions, node);
 }
 
 /// Returns the last leaf of a left child.
-static inline uint last_of(TREE_PARAMETERS, global const uint* positions, global const uint* ends,
+static inline uint last_of(TREE_PARAMETERS, global const uint* positions, global const Ends* ends,
                            const uint left)
 {
-    const uint number = tree_number(TREE, left);
-    if (tree_is_leaf(TREE, left))
-        return position_of(TREE, positions, left);
-    return NUMBERED_BY_RANGE ? number : range_of(ends, number).y;
+    if (NUMBERED_BY_RANGE && !tree_is_leaf(TREE, left))
+        return tree_number(TREE, left);
+    return TREE_IN_ORDER || tree_is_leaf(TREE, left) ? end_below(TREE, positions, left, true)
+                                                     : range_of(ends, tree_number(TREE, left)).y;
+}
+
+/// Finds the range of inner node number k of a tree whose leaves are in its order, and writes it to `ends`.
+static inline void find_range(TREE_PARAMETERS, global Ends* ends, const uint k)
+{
+    const uint node = tree_inner(TREE, k);
+    const uint left = tree_left(TREE, node), right = tree_right(TREE, node);
+#if NUMBERED_BY_RANGE
+    const bool is_first = last_of(TREE, 0, ends, left) >= k;
+    ends[k] = end_below(TREE, 0, is_first ? right : left, is_first);
+#else
+    ends[k] = (Ends)(end_below(TREE, 0, left, false), end_below(TREE, 0, right, true));
+#endif
 }
 
 /// True if a child with `leaves` leaves of a node of class `class` is in list class - 1.
@@ -115,13 +87,15 @@ static inline void put_bit(volatile global uint* list, const uint position)
     atomic_or(list + position / WORD_BITS, 1u << (position % WORD_BITS));
 }
 
-/// `marks` are lists of `words` words each, and a word more. They are zero before.
-kernel void mark(FOREST_PARAMETERS, global const uint* positions, global const uint* ends,
+/// `marks` are lists of `words` words each, and a word more. They are zero before, and zeroed again by `count_before`.
+kernel void mark(FOREST_PARAMETERS, global const uint* positions, global Ends* ends,
                  volatile global uint* marks, const uint words)
 {
     PICK_WHOLE_TREE(void) objects;
     const Chunk chunk = own_chunk(leaves - 1u);
     for (uint k = chunk.first; k < chunk.end; ++k) {
+        if (TREE_IN_ORDER)
+            find_range(TREE, ends, k);
         const uint2 range = range_of(ends, k);
         const uint class = wide_class(range.y - range.x + 1u);
         if (class == 0u)
@@ -135,11 +109,16 @@ kernel void mark(FOREST_PARAMETERS, global const uint* positions, global const u
     }
 }
 
-/// Writes to `counts` how many bits there are before each of the `count` words of `marks`. A group takes a tile of WORDS_PER_ITEM words
+/// A word of marks, and how many bits there are before it in all lists.
+typedef struct {
+    uint before, bits;
+} Counted;
+
+/// Writes to `counts` what there is in and before each of the `count` words of `marks`, and zeroes them. A group takes a tile of WORDS_PER_ITEM words
 /// for each work-item, and looks back for those before; a single group takes all tiles in turn. `states` has a state for each tile, and
 /// no earlier launch has used `epoch` (look_back.clh). `tiles_taken` is 0, and zeroed again by `fill`.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_before(
-    global const uint* marks, global uint* counts, const uint count, volatile global ulong* states,
+    global uint* marks, global Counted* counts, const uint count, volatile global ulong* states,
     const uint epoch, volatile global uint* tiles_taken)
 {
     local uint scratch[SCAN_SCRATCH];
@@ -155,8 +134,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_before
         const uint tile = shared[0], first = tile * TILE + item * WORDS_PER_ITEM;
         uint bits[WORDS_PER_ITEM], sum = 0u, all;
         for (uint k = 0u; k < WORDS_PER_ITEM; ++k) {
-            bits[k] = first + k < count ? popcount(marks[first + k]) : 0u;
-            sum += bits[k];
+            bits[k] = first + k < count ? marks[first + k] : 0u;
+            sum += popcount(bits[k]);
         }
         uint before = sum_before(sum, scratch, &all);
         if (waits && item == 0u) {
@@ -169,23 +148,26 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_before
         barrier(CLK_LOCAL_MEM_FENCE);
         before += shared[1];
         for (uint k = 0u; k < WORDS_PER_ITEM; ++k) {
-            if (first + k < count)
-                counts[first + k] = before;
-            before += bits[k];
+            if (first + k < count) {
+                const Counted counted = {before, bits[k]};
+                counts[first + k] = counted;
+                marks[first + k] = 0u;
+            }
+            before += popcount(bits[k]);
         }
         earlier += all;
         barrier(CLK_LOCAL_MEM_FENCE);  // both words have been read
     }
 }
 
-#define LISTS_PARAMETERS global const uint *marks, global const uint *counts, const uint words
-#define LISTS marks, counts, words
+#define LISTS_PARAMETERS global const Counted *counts, const uint words
+#define LISTS counts, words
 
 /// Returns how many bits all lists before `list`, and this one before `position`, have.
 static inline uint place_of(LISTS_PARAMETERS, const uint list, const uint position)
 {
-    const ulong word = (ulong)list * words + position / WORD_BITS;
-    return counts[word] + popcount(marks[word] & ((1u << (position % WORD_BITS)) - 1u));
+    const Counted word = counts[(ulong)list * words + position / WORD_BITS];
+    return word.before + popcount(word.bits & ((1u << (position % WORD_BITS)) - 1u));
 }
 
 /// Returns what the wide node over `leaves` leaves from `first` on has: its leaves or its children.
@@ -213,12 +195,12 @@ static inline void put_child(TREE_PARAMETERS, LISTS_PARAMETERS, const uint list,
 /// Writes the lists to `wide_children`, the ends of their leaves to `child_ends`, each object's root to `roots`, and how many children
 /// there are to `child_count`. If there are more than `most_children`, writes none. Zeroes `tiles_taken`.
 kernel void fill(FOREST_PARAMETERS, const uint object_count, global const uint* positions,
-                 global const uint* ends, LISTS_PARAMETERS, const uint lists,
+                 global const Ends* ends, LISTS_PARAMETERS, const uint lists,
                  global WideChild* wide_children, global uint* child_ends, const uint most_children,
                  global uint2* roots, global uint* child_count, global uint* tiles_taken)
 {
     PICK_WHOLE_TREE
-    const uint count = counts[(ulong)lists * words];
+    const uint count = counts[(ulong)lists * words].before;
     if (get_global_id(0) == 0) {
         *child_count = count;
         *tiles_taken = 0u;

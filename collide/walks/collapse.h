@@ -10,7 +10,8 @@
 
 namespace bvhbench {
 
-/// Collapses a binary tree with pointers into the wide nodes that `block` walks (collapse.cl).
+/// Collapses a tree into the wide nodes that `block` walks: a binary one with pointers (collapse.cl), or an implicit one with 4 or 8
+/// children a node (collapse_implicit.cl).
 class Collapse {
 public:
     /// Compiles for this tree. `room` is the first capacity in children, or 0.
@@ -40,17 +41,23 @@ public:
     uint room() const { return static_cast<uint>(room_); }
 
 private:
+    /// Finds where the lists of children of an implicit tree begin and end.
+    void list_children(const DeviceTree& tree);
+
     const Device& device_;
-    bool is_in_order_, is_numbered_by_range_;
+    bool is_implicit_, is_in_order_, is_numbered_by_range_;
     uint leaves_, objects_, lists_, words_;
     std::size_t child_bytes_, room_;
-    cl::Kernel ranges_, mark_, count_, fill_;
-    std::vector<cl::Kernel>
-        line_up_;     ///< in place of `ranges_` if leaves are not in the tree's order
-    uint epoch_ = 0;  ///< of the last look-back
+    std::vector<uint> begin_list_;  ///< of an implicit tree, as `begins_`
+    std::vector<cl_uint2> root_list_;
+    Buffer<uint> begins_;
+    cl::Kernel write_, mark_, count_, fill_;
+    std::vector<cl::Kernel> line_up_;  ///< if leaves are not in the tree's order
+    uint epoch_ = 0;                   ///< of the last look-back
     Buffer<cl_uint2> roots_;
     Buffer<uint> positions_, places_, parents_, met_, leaf_counts_;  ///< line_up.cl
-    Buffer<uint> ends_, marks_, counts_, child_ends_, child_count_, tiles_taken_;
+    Buffer<cl_uint2> counts_;
+    Buffer<uint> ends_, marks_, child_ends_, child_count_, tiles_taken_;
     Buffer<std::uint64_t> states_;
     Buffer<std::byte> children_;
 };

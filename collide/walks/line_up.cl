@@ -18,13 +18,10 @@
 #define IS_RIGHT 0x80000000u
 #define NUMBER_OF(entry) ((entry) & ~IS_RIGHT)
 
-/// Writes the parents of all nodes, makes the ranges of all inner nodes empty, and zeroes the `mark_count` words of `marks`.
-kernel void link(FOREST_PARAMETERS, global uint* parents, global uint* ends, global uint* marks,
-                 const uint mark_count)
+/// Writes the parents of all nodes, and makes the ranges of all inner nodes empty.
+kernel void link(FOREST_PARAMETERS, global uint* parents, global uint* ends)
 {
     PICK_WHOLE_TREE(void) objects;
-    for (uint k = (uint)get_global_id(0); k < mark_count; k += (uint)get_global_size(0))
-        marks[k] = 0u;
     const Chunk chunk = own_chunk(leaves - 1u);
     for (uint k = chunk.first; k < chunk.end; ++k) {
         const uint node = tree_inner(TREE, k);

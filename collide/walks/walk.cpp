@@ -49,8 +49,6 @@ public:
 private:
     std::string objection(const DeviceTree& tree) const override
     {
-        if (by_ == By::block && tree.child_bits() != 1)
-            return "block needs a binary tree";
         if (by_ == By::block && !tree.is_in_order() && tree.leaf_count() > most_lined_up)
             return "block lines up " + std::to_string(most_lined_up) + " leaves at most, not " +
                    std::to_string(tree.leaf_count());
@@ -110,7 +108,7 @@ private:
             launch_group_ = std::size_t{teams} * lanes;
             zeroes_next_ = true;
             collapse_.reset();
-            if (!tree().is_implicit() && tree().leaf_count() > 1)
+            if ((!tree().is_implicit() || tree().child_bits() > 1) && tree().leaf_count() > 1)
                 collapse_.emplace(programs(), tree(), options_.capacity);
             queue_count_ = collapse_ ? 1 : 0;  // CHILDREN_COUNT
             walk_ = kernel("collide/walks/block.cl", "block_pairs",
@@ -230,7 +228,7 @@ private:
     cl::Kernel walk_, between_kernel_;
     std::vector<QueryTask> own_list_;   ///< tasks of each object against its own tree
     std::size_t between_room_ = 0;      ///< capacity of between_, in tasks
-    std::optional<Collapse> collapse_;  ///< of `block` over a tree with pointers
+    std::optional<Collapse> collapse_;  ///< of `block` over what is not implicit and binary
     Buffer<QueryTask> own_;
     Buffer<QueryTask> between_;
     Buffer<Pair> blocks_;

@@ -233,6 +233,9 @@ protected:
     }
 
     uint32_t triangles() const { return triangles_; }
+    uint64_t vertices() const { return points_.size() / 3; }
+    const uint32_t* faces() const { return faces_.data(); }  // on the device, as the next
+    const float* points() const { return points_.data(); }
     PairRoom room() const { return {pairs_.data(), count_.data(), pairs_.size()}; }
 
     template <class LibraryBox>

@@ -20,10 +20,11 @@ TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
 
 TEST(Block, FindsTheOraclesPairsInTreesThatItCollapses)
 {
-    // Sizes at and next to those of classes of wide nodes: 32, 512 and 8192 leaves. Nodes are numbered in three ways, and leaves of
-    // `hploc` are not in the order of the tree.
-    for (const std::size_t size : {2u, 32u, 33u, 512u, 513u, 8193u})
-        for (const char* builder : {"karras", "apetrei", "lbvh-levels", "hploc"}) {
+    // Sizes at and next to those of classes of wide nodes: 32, 512 and 8192 leaves, in wide trees 16, 64, 256 and 4096. Nodes are
+    // numbered in three ways, and leaves of `hploc` are not in the order of the tree.
+    for (const std::size_t size : {2u, 17u, 32u, 33u, 65u, 512u, 513u, 4097u, 8193u})
+        for (const char* builder :
+             {"karras", "apetrei", "lbvh-levels", "hploc", "oibvh-wide4", "oibvh-wide8"}) {
             SCOPED_TRACE(std::to_string(size) + " triangles, " + builder);
             for (const std::size_t capacity : {0u, 1u}) {
                 const auto block =
@@ -66,7 +67,7 @@ TEST(Block, FindsThePairsOfTreesThatAreOneLeaf)
     std::vector<FaceRange> objects;
     for (uint k = 0; k < 40; ++k)
         objects.push_back({k, 1});
-    for (const char* builder : {"oibvh-multi", "apetrei-fused", "hploc"})
+    for (const char* builder : {"oibvh-multi", "apetrei-fused", "hploc", "oibvh-wide4"})
         for (const bool is_sorted : {false, true}) {
             const auto block = made("block", {.form = KernelForm::groups});
             const Standing standing(mesh, builder, {.sorted_leaves = is_sorted}, objects);

@@ -197,7 +197,6 @@ def test_what_is_wrong_is_said_once():
     expect(2, "cluster", "bunnny", "--ranks", "2", says="no scene is called 'bunnny'")
     expect(2, *few, *SHARED, "--builder", "sah-binned", says="leaves its tree in host memory")
     expect(2, *few, *SHARED, "--collider", "grid", says="queries no tree")
-    expect(2, *few, *SHARED, "--builder", "oibvh-wide4", "--collider", "block", says="block needs a binary tree")
     expect(3, "cluster", "/none/x.obj", "--ranks", "2", *SHARED, says="rank 0 on ")
     pathlib.Path("there.json").write_text("{}")
     expect(2, *few, "--share-devices", "--json", "there.json", says="is there already")

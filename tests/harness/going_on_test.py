@@ -39,7 +39,7 @@ def test_what_a_scene_builder_or_collider_has_not_is_a_cell():
         "bvtt jumps at most": {"builder": "perfect", "collider": {"name": "bvtt", "jump": 30}},
         "bvtt starts on level": {"builder": "perfect", "collider": {"name": "bvtt", "start_level": 32}},
         "a collider's group size is": {"builder": "perfect", "collider": {"name": "leaf", "group_size": 65536}},
-        "block needs a binary tree": {"builder": "oibvh-wide4", "collider": "block"},
+        "front-leaf needs a binary tree": {"builder": "oibvh-wide4", "collider": "front-leaf"},
         "order kd lines up one object, not 2": {"builder": {"name": "perfect", "order": "kd"}, "collider": "leaf"}}
     places = {"has frames 0 to 0, not 7": {"frames": "7:9"}, "has no meshes": {"objects": "mesh"}, "has one frame": {"between": 2},
               "need two frames": {"swept": True}}

@@ -23,7 +23,7 @@ SENTENCES = (
       for value in ("nan", "-1", "many")),
     (2, "collide --builder perfect --collider x --scene soup:5", "there are: leaf, "),
     (2, "collide --builder perfect --collider leaf --scene soup:5 --pairs p.txt", "to .csv or .bin"),
-    (4, "collide --builder oibvh-wide4 --collider block --scene soup:5", "block needs a binary tree"),
+    (4, "collide --builder oibvh-wide4 --collider front-leaf --scene soup:5", "front-leaf needs a binary tree"),
     (2, "run nothing", "there are: agreement, builders, effects, equality"),
     (2, "run tabel1", "did you mean 'table1'?"),
     (2, "biuld", "no command is called 'biuld'; did you mean 'build'?"),
