@@ -82,7 +82,7 @@ def quotes(doc: Document) -> None:
     listed("claims").bullets(doc, "sizes", "refit")
     quality(doc)
     of_rivals, rivals = listed("docs/rivals"), File("h200/rivals")
-    doc.says("five CUDA libraries takes {} to {} times as long as `block`", *ends(of_rivals.best_ratios(rivals)))
+    doc.says("nine CUDA libraries takes {} to {} times as long as `block`", *ends(of_rivals.best_ratios(rivals)))
     doc.says("({} to {} where it refits and ours rebuilds)", *of_rivals.best_refits(rivals))
     doc.says("and {} to {} times as long as `group` over our radix tree", *ends(of_rivals.best_ratios(rivals, "group over apetrei-fused")))
 

@@ -21,7 +21,7 @@ def quotes(doc: Document) -> None:
     listed("claims").radix_by_collider(doc)
     kd, radix = ([sah(quality, scene, asked) for scene in of_orders.SCANS] for asked in ("oibvh-multi, kd", "apetrei-fused"))
     doc.says("brings it within {} % on five scans", 100 * ratios(kd, radix)[1] - 100)
-    doc.says("takes {} to {} times as long as `block` over", *ends(of_rivals.best_ratios(File("h200/rivals"))))
+    doc.says("takes {} to {} times as long as `block` over\n`oibvh-single`", *ends(of_rivals.best_ratios(File("h200/rivals"))))
     doc.says("(`agreement`, {} cells), and of {} cells over", listed("docs/collisions").agreeing("h200"), of_stress.right_of("h200/stress")[0])
     most, = File("h200/cluster-most").results()
     doc.says("{} to {} times as fast as one, and those of a torus of 2,147,483,648, which one cannot hold, in {} ms a frame, after {} s of cutting",

@@ -1,4 +1,4 @@
-from plots.evidence.quotes import ONE_SET, Document, File, query_us, us
+from plots.evidence.quotes import ONE_SET, Document, File, ends, query_us, us
 
 SCENES = ("torus:144046", "torus:2880000", "hairball:400000", "cloth-ball:92230", "n-body:146000")
 
@@ -30,6 +30,16 @@ def collapsed(doc: Document) -> None:
              *ratios("block"), min(collapse), max(collapse))
     doc.says("On n-body, whose objects are small, the collapse costs more than it saves: {} µs a frame against {} with `group`",
              of(SCENES[-1], "block", radix), of(SCENES[-1], "group", radix))
+    wide = "oibvh-wide4", "oibvh-wide8"
+    doc.says("The stage takes {} to {} and {} to {} µs",
+             *(end for tree in wide for end in ends(of(scene, "block", tree, "collapse") for scene in SCENES)))
+
+    def of_wide(collider: str, than: str = "") -> list[float]:
+        return [end for tree in wide for end in ends(of(scene, "block", tree, "broad") / of(scene, collider, than or tree, "broad")
+                                                     for scene in SCENES)]
+
+    doc.says("Queries take {} to {} and {} to\n{} times as long as those of the binary implicit tree, and {} to {} and {} to {} of those",
+             *of_wide("block", implicit), *of_wide("group"))
     torus, hploc = SCENES[1], "hploc"
     doc.says("makes the collapse\n{} µs, and the query takes {} µs, where `group` takes {}. A frame takes {} µs, with `group` {}",
              of(torus, "block", hploc, "collapse"), of(torus, "block", hploc, "broad"), of(torus, "group", hploc, "broad"),
