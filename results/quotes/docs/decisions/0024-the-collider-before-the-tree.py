@@ -28,3 +28,14 @@ def quotes(doc: Document) -> None:
                  *(100 * by[name] for name in ("collider", "builder", "builder × collider")), 100 * (by["order"] + by["leaves"]))
     doc.says("are queried in {} times the time of an implicit tree",
              next(one.query.mean for one in effects.effects(cells) if one.level == "sah-binned"))
+    two_cores(doc)
+
+
+def two_cores(doc: Document) -> None:
+    cells = effects.cells_of(File("pocl-2-cores/effects").cells)
+    by = effects.shares(cells, of_query=False)
+    frame = {one.level: one.frame.mean for one in effects.effects(cells) if one.frame}
+    doc.says("PoCL, seven of the meshes, {} cells", len(cells))
+    doc.says("The collider decides {} % of a frame's variance, the builder {} %: `leaf` takes {} and `bvtt` {} times as long as `block`, a\n"
+             "radix tree {} times as long as an implicit one, the padded tree {}, `hploc` {}. `kd` takes {} times as long as `hilbert30`, mesh order\n{}",
+             100 * by["collider"], 100 * by["builder"], *(frame[level] for level in ("leaf", "bvtt", "apetrei-fused", "perfect", "hploc", "kd", "mesh")))
