@@ -17,7 +17,7 @@ public:
     /// Compiles for this tree. `room` is the first capacity in children, or 0.
     Collapse(Programs& programs, const DeviceTree& tree, std::size_t room);
 
-    /// Takes all memory: 5 bytes a leaf or more, of a tree whose leaves are not in its order 32 more, and 36 a child.
+    /// Takes all memory: 36 bytes a child, and but for implicit trees some 6 a leaf, 32 more if leaves are not in the tree's order.
     void plan(Arena& arena);
 
     /// Clears what enqueue() expects clear in new memory. Waits.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Wide nodes above the small subtrees of a binary tree, for host and device; collapse.cl makes them.
+// Wide nodes above the small subtrees of a tree, for host and device; collapse.cl and collapse_implicit.cl make them.
 #ifndef BVHBENCH_COLLIDE_WIDE_NODE_H
 #define BVHBENCH_COLLIDE_WIDE_NODE_H
 

@@ -35,6 +35,18 @@ TEST(Block, FindsTheOraclesPairsInTreesThatItCollapses)
         }
 }
 
+TEST(Block, FindsTheOraclesPairsOfSeveralTreesThatItCollapses)
+{
+    // Between objects that have wide nodes is one that has none.
+    const Mesh surface = scene_mesh("torus:1400");
+    const std::vector<FaceRange> objects = {{0, 700}, {700, 20}, {720, 80}, {800, 600}};
+    for (const char* builder : {"apetrei-fused", "hploc", "oibvh-wide4", "oibvh-wide8"}) {
+        SCOPED_TRACE(builder);
+        const auto block = made("block", {.form = KernelForm::groups});
+        expect_oracles_pairs(*block, Standing(surface, builder, {}, objects));
+    }
+}
+
 TEST(Block, FindsTheOraclesPairsInATreeWhoseNodesHaveALeafAndTheRest)
 {
     // Each triangle is half as far from the origin as the one before, so wide nodes have leaves and blocks of one leaf as children.
