@@ -88,6 +88,16 @@ cl::Kernel DeviceCollider::kernel(std::string_view path, const char* name, std::
     return programs().kernel(tree().access_header(), path, name, more, optimise);
 }
 
+std::unique_ptr<ObjectOrder> DeviceCollider::object_order(const Input& input) const
+{
+    if (!between(object_count()) || !skips(skip_apart) ||
+        object_count() < ObjectOrder::least_objects)
+        return {};
+    return std::make_unique<ObjectOrder>(programs(), form_,
+                                         kernel("collide/object_order.cl", "begin_objects"),
+                                         kernel("collide/object_order.cl", "place_objects"), input);
+}
+
 void DeviceCollider::reserve(const Tree* tree, const Input& input)
 {
     triangles_ = input.triangle_count();

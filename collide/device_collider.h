@@ -7,10 +7,12 @@
 //     complete   make_room; if any buffer was too small: save, plan and fill again
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "builders/device_tree.h"
 #include "collide/collider.h"
+#include "collide/object_order.h"
 #include "collide/skips.h"
 
 namespace bvhbench {
@@ -70,6 +72,9 @@ protected:
     /// Compiles a kernel behind the tree's access header, with the defines that all such kernels have and with `more`.
     cl::Kernel kernel(std::string_view path, const char* name, std::vector<Define> more = {},
                       Optimise optimise = Optimise::freely) const;
+
+    /// Returns the order of objects in which pairs of them are found, if there are so many that it pays.
+    std::unique_ptr<ObjectOrder> object_order(const Input& input) const;
 
     /// Sets the arguments that all kernels share, the tree's first, then `more`.
     template <class... Arguments>

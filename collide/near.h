@@ -31,6 +31,9 @@ public:
     /// Largest number of near triangles that is used; with more, the whole frame is used.
     static std::size_t most_of(std::size_t triangles) { return triangles / 2; }
 
+    /// Most objects that are tested each against each for their lists. With more, the rule is not used.
+    static constexpr std::size_t most_objects = 4096;
+
     /// Reserves memory for frames like `input`: same faces and objects, any points. Never timed. Blocks.
     void reserve(const Input& input);
 

@@ -89,14 +89,16 @@ private:
         return steps;
     }
 
-    void compile(const Input&) override
+    void compile(const Input& input) override
     {
         block_pairs_ = by_groups() ? 0 : node_pairs_in_block;
         queue_count_ = static_cast<uint>(steps().size()) + 1;  // and the output of the last step
         const Define label{"LABEL_BITS", node_bits(tree())};
         const Define one_object{"ONE_OBJECT", object_count() == 1 ? 1u : 0u};
+        order_ = object_order(input);
         if (object_count() > 1)
-            roots_ = kernel("collide/queues/roots.cl", "find_roots",
+            roots_ = kernel(order_ ? "collide/queues/many_roots.cl" : "collide/queues/roots.cl",
+                            order_ ? "sweep_roots" : "find_roots",
                             {label, {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
         expand_ = by_groups() ? kernel("collide/queues/bvtt_groups.cl", "expand",
                                        {{"GROUP_SIZE", group_size_},
@@ -112,8 +114,16 @@ private:
     {
         for (Buffer<Pair>& queue : queues_)
             queue = arena.take<Pair>(queue_room_, Use::scratch);
+        if (order_)
+            order_->plan(arena, tree());
         if (!by_groups())
             blocks_ = arena.take<Pair>(2 * block_pairs_ * chunks_, Use::scratch);
+    }
+
+    void fill(const cl::CommandQueue& queue) override
+    {
+        if (order_)
+            order_->prepare(queue);
     }
 
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& sizes) override
@@ -135,7 +145,12 @@ private:
         if (one_object && !within())
             return;
         const auto room = static_cast<uint>(queue_room_);
-        if (!one_object) {
+        if (order_) {
+            order_->enqueue(tree(), queue);
+            order_->bind(roots_, tree().bind(roots_, 0), within() ? 1u : 0u, queues_[0], room,
+                         counters_);
+            launch(roots_, object_count(), 64, queue);
+        } else if (!one_object) {
             set_arguments_from(roots_, tree().bind(roots_, 0), object_count(), within() ? 1u : 0u,
                                between(object_count()) ? 1u : 0u, queues_[0], room, counters_);
             launch(roots_,
@@ -168,9 +183,10 @@ private:
     }
 
     cl::Kernel roots_, expand_;
-    uint block_pairs_ = 0;           ///< entries per block, in the chunk form
-    uint launched_ = 0;              ///< steps launched by the last query
-    uint needed_steps_ = all_steps;  ///< steps that had entries to expand in the last query
+    std::unique_ptr<ObjectOrder> order_;  ///< of many objects
+    uint block_pairs_ = 0;                ///< entries per block, in the chunk form
+    uint launched_ = 0;                   ///< steps launched by the last query
+    uint needed_steps_ = all_steps;       ///< steps that had entries to expand in the last query
     std::size_t queue_room_ = 0;
     std::array<Buffer<Pair>, 2> queues_;  ///< node pairs: read and written by turns
     Buffer<Pair> blocks_;

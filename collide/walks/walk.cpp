@@ -62,7 +62,7 @@ private:
         return chosen_form(programs.device(), options.form) == KernelForm::groups;
     }
 
-    void compile(const Input&) override
+    void compile(const Input& input) override
     {
         if (by_groups())
             compile_groups();
@@ -74,13 +74,17 @@ private:
                 own_list_.push_back(
                     {k, k, first, std::min(task_leaves_, tree().objects[k].leaves - first)});
         between_room_ = 0;
+        order_.reset();
         if (!between(object_count()))
             return;
-        between_kernel_ = kernel("collide/queues/between.cl", "find_between",
-                                 {{"GROUP_SIZE", by_groups() ? group_size_ : 1u},
-                                  {"TASK_LEAVES", task_leaves_},
-                                  {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
-                                  {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+        order_ = object_order(input);
+        between_kernel_ =
+            kernel(order_ ? "collide/queues/many_between.cl" : "collide/queues/between.cl",
+                   order_ ? "sweep_between" : "find_between",
+                   {{"GROUP_SIZE", by_groups() ? group_size_ : 1u},
+                    {"TASK_LEAVES", task_leaves_},
+                    {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                    {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
         between_room_ =
             first_room(std::max<std::size_t>(256, 2 * own_list_.size()), sizeof(QueryTask));
     }
@@ -165,6 +169,8 @@ private:
         if (collapse_)
             collapse_->plan(arena);
         between_ = arena.take<QueryTask>(std::max<std::size_t>(1, between_room_), Use::scratch);
+        if (order_)
+            order_->plan(arena, tree());
         if (block_pairs_ > 0)
             blocks_ = arena.take<Pair>(block_pairs_ * chunks_, Use::scratch);
     }
@@ -172,6 +178,8 @@ private:
     void fill(const cl::CommandQueue& queue) override
     {
         own_.upload(queue, own_list_);
+        if (order_)
+            order_->prepare(queue);
         if (collapse_)
             collapse_->prepare(queue);
     }
@@ -193,7 +201,13 @@ private:
     {
         const auto own_count = static_cast<uint>(own_.size());
         const auto between_room = static_cast<uint>(between_room_);
-        if (between(object_count())) {
+        if (order_) {
+            order_->enqueue(tree(), queue);
+            order_->bind(between_kernel_, tree().bind(between_kernel_, 0), own_, own_count,
+                         between_, between_room, counters_);
+            launch(between_kernel_, by_groups() ? own_.size() : chunks_,
+                   by_groups() ? group_size_ : 1, queue);
+        } else if (between(object_count())) {
             set_arguments_from(between_kernel_, tree().bind(between_kernel_, 0), own_, own_count,
                                object_count(), between_, between_room, counters_);
             const std::size_t items = own_.size() * divided_up(object_count(), OTHERS_AT_A_TIME);
@@ -226,9 +240,10 @@ private:
     std::size_t items_a_task_ = 0, launch_group_ = 1;  ///< in work-items; 0: all share all tasks
     uint block_pairs_ = 0;                             ///< pairs that a work-item buffers; 0: none
     cl::Kernel walk_, between_kernel_;
-    std::vector<QueryTask> own_list_;   ///< tasks of each object against its own tree
-    std::size_t between_room_ = 0;      ///< capacity of between_, in tasks
-    std::optional<Collapse> collapse_;  ///< of `block` over what is not implicit and binary
+    std::unique_ptr<ObjectOrder> order_;  ///< of many objects
+    std::vector<QueryTask> own_list_;     ///< tasks of each object against its own tree
+    std::size_t between_room_ = 0;        ///< capacity of between_, in tasks
+    std::optional<Collapse> collapse_;    ///< of `block` over what is not implicit and binary
     Buffer<QueryTask> own_;
     Buffer<QueryTask> between_;
     Buffer<Pair> blocks_;

@@ -97,8 +97,8 @@ enum class FrameUpdate {
     refit,      ///< built in the first frame and refitted in all others
 };
 
-/// What one of a builder's trees is over.
-enum class TreeOver { object, scene };
+/// What one of a builder's trees is over. Automatic: what trees_over() of one_tree.h says of a frame.
+enum class TreeOver { object, scene, automatic };
 
 /// A collider and its options, as chosen on the command line or in an experiment. Result files do not store `form` and `capacity`,
 /// which only tests and `stress` set.

@@ -46,6 +46,7 @@ Json value_of(const CellChoice& choice)
 constexpr std::array<std::string_view, 2> grids = {"object", "scene"}, places = {"mesh", "sorted"},
                                           adjacents = {"drop", "keep"}, truths = {"false", "true"};
 constexpr std::array<std::string_view, 3> amongs = {"all", "between", "within"},
+                                          trees = {"object", "scene", "auto"},
                                           updates = {"auto", "rebuild", "refit"};
 
 /// Sets a boolean or an enumeration whose values are in the order of `words`.
@@ -136,10 +137,10 @@ constexpr Choice table[] = {
      "fronts start again; or refit, never rebuild",
      set_word<collider, &ColliderChoice::update, updates>,
      word_of<collider, &ColliderChoice::update, updates>},
-    {"trees", Of::query, "object or scene",
-     "object or scene: a tree for each object, or one tree over all of them",
-     set_word<collider, &ColliderChoice::trees, grids>,
-     word_of<collider, &ColliderChoice::trees, grids>},
+    {"trees", Of::query, "auto, object or scene",
+     "a tree for each object, one tree over the scene, or auto: one if objects are many and small",
+     set_word<collider, &ColliderChoice::trees, trees>,
+     word_of<collider, &ColliderChoice::trees, trees>},
     {"jump", Of::collider, "a number of levels up to 32, 0 for the collider's choice",
      "levels a step of a traversal descends; 0: the collider's choice",
      set_number<collider, &ColliderChoice::jump, most_levels>,

@@ -25,6 +25,7 @@ public:
     void add_options(CLI::App& app) override
     {
         names_.builders = {"oibvh-multi"};
+        choice_.collider.trees = TreeOver::automatic;
         names_.add_builders(app);
         names_.add_colliders(app);
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();

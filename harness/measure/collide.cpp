@@ -19,6 +19,25 @@ void put_choice(const CollideTask& task, SceneFacts& facts)
     facts.between = task.between;
 }
 
+/// Returns the task's pipelines with trees as they are over the frame, and says where one tree was chosen for them.
+std::vector<PipelineState> pipelines_over(const CollideTask& task, const Input& input,
+                                          const SceneLibrary& library)
+{
+    std::vector<PipelineState> all;
+    bool has_chosen = false;
+    for (const PipelineChoice& pipeline : task.pipelines) {
+        all.push_back({pipeline});
+        ColliderChoice& collider = all.back().choice.collider;
+        has_chosen |=
+            collider.trees == TreeOver::automatic && trees_over(collider, input) == TreeOver::scene;
+        collider.trees = trees_over(collider, input);
+    }
+    if (has_chosen && library.tell)
+        library.tell("scene '" + task.scene + "': its " + std::to_string(input.objects.size()) +
+                     " objects are small and share one tree; --trees object gives each its own");
+    return all;
+}
+
 /// Throws what loading the scene throws, and BadUsage for frames that it does not have.
 void collide_scene(Session& session, const CollideTask& task, int& order, const AddFrame& add,
                    const PassCells& passes)
@@ -39,9 +58,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     Input input = upload_frame(session, scene.with_frame(frames.first),
                                scene.later.empty() ? frames.first : 0);
     Contest contest(task.sampling.race, frames.end - frames.first > 1 && scene.later.empty());
-    std::vector<PipelineState> all;
-    for (const PipelineChoice& pipeline : task.pipelines)
-        all.push_back({pipeline});
+    std::vector<PipelineState> all = pipelines_over(task, input, session.scenes());
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
         const Scene& shown = scene.with_frame(frame);
         if (scene.later.empty()) {

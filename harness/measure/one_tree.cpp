@@ -9,6 +9,9 @@
 namespace bvhbench {
 namespace {
 
+/// From how many objects on, of at most how many triangles on average, one tree is sooner there than a tree each (docs/frames.md).
+constexpr std::size_t many_objects = 512, small_object = 16;
+
 /// Returns true if triangles of two objects have a vertex in common.
 bool share_vertices(const Input& input)
 {
@@ -58,10 +61,24 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
     queried_ = upload_over(built_, session.device(), session.queue(), owners_);
 }
 
+TreeOver trees_over(const ColliderChoice& asked, const Input& input)
+{
+    if (asked.trees != TreeOver::automatic)
+        return asked.trees;
+    const ColliderEntry& collider = find_collider(asked.name);
+    const bool are_small = input.objects.size() >= many_objects &&
+                           input.triangle_count() <= small_object * input.objects.size();
+    const bool can_be =
+        collider.needs_tree && collider.outside == nullptr && !input.is_swept() &&
+        (asked.among == Among::all || (asked.among == Among::between_objects &&
+                                       (asked.keep_adjacent || !share_vertices(input))));
+    return are_small && can_be ? TreeOver::scene : TreeOver::object;
+}
+
 std::optional<OneTree> one_tree_for(Session& session, const ColliderChoice& asked,
                                     const Input& input)
 {
-    if (asked.trees == TreeOver::object)
+    if (asked.trees != TreeOver::scene)
         return {};
     if (input.objects.size() == 1)
         throw BadUsage("the scene is one object, which has one tree: 'trees' is object");

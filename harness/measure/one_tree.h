@@ -48,7 +48,11 @@ private:
     Input built_, queried_;
 };
 
-/// Returns one tree if `asked` wants it, else none. Throws BadUsage as the constructor does, and for a scene of one object.
+/// Returns what the trees of a frame are over, if the choice leaves it open: one tree over the scene if objects are many and small, where
+/// one tree can find the pairs.
+TreeOver trees_over(const ColliderChoice& asked, const Input& input);
+
+/// Returns one tree if `asked` names it, else none. Throws BadUsage as the constructor does, and for a scene of one object.
 std::optional<OneTree> one_tree_for(Session& session, const ColliderChoice& asked,
                                     const Input& input);
 

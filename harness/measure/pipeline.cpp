@@ -35,7 +35,7 @@ void check_trees(const ColliderChoice& choice, const Collider& collider, const B
 {
     const bool refits = choice.update == FrameUpdate::refit;
     if (builder == nullptr &&
-        (choice.update != FrameUpdate::automatic || choice.trees != TreeOver::object))
+        (choice.update != FrameUpdate::automatic || choice.trees == TreeOver::scene))
         throw BadUsage("'update' and 'trees' are about a builder's trees, and the collider " +
                        choice.name + " queries none");
     if (refits && collider.keeps_tree())
@@ -79,7 +79,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
-        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() && !one_tree_) {
+        input.objects.size() <= NearTriangles::most_objects && !input.is_swept() &&
+        builder_ != nullptr && !collider_->keeps_tree() && !one_tree_) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }

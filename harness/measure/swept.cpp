@@ -94,6 +94,8 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
         for (PipelineChoice pipeline : task.pipelines) {
             const Among among = std::exchange(pipeline.collider.among, question.among);
             pipeline.collider.keep_adjacent = false;
+            if (pipeline.collider.trees == TreeOver::automatic)
+                pipeline.collider.trees = TreeOver::object;
             if (among == Among::all || among == question.among)
                 question.pipelines.push_back({std::move(pipeline)});
         }

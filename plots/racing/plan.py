@@ -80,7 +80,7 @@ class Plan:
     def expanded(self, scene: Json, pairs: list[tuple[Json | None, Json | None]]) -> list[Planned]:
         """Returns each cell once, as the program describes it, or with the reason why it cannot be."""
         planned = [Planned(self.scene_of(scene), builder and dict(builder), collider and dict(collider),
-                           dict(self.query) if collider else {}) for builder, collider in pairs]
+                           {"trees": "auto"} | self.query if collider else {}) for builder, collider in pairs]
         return list({one.cell.identity: one for one in reversed(expanded(planned, self.sweep, self.expand))}.values())[::-1]
 
     def scene_of(self, scene: Json) -> Json:

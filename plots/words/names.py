@@ -36,8 +36,9 @@ USUAL = {key: usual for key, (usual, _) in {**ANSWERS, **OPTIONS}.items()}
 
 
 def non_default(options: Mapping[str, object], table: Mapping[str, tuple[str, str]]) -> list[str]:
-    """Returns the words of the options that are not the defaults; `table` has each option's default and words."""
-    return [words.format(options[key]) for key, (usual, words) in table.items() if str(options.get(key, usual)) != usual]
+    """Returns the words of the options that are not the defaults; `table` has each option's default and words. Only a cell that was not
+    begun still has the choice `auto`."""
+    return [words.format(options[key]) for key, (usual, words) in table.items() if str(options.get(key, usual)) not in (usual, "auto")]
 
 
 def part(stages: tuple[str, ...], there: Collection[str]) -> str:

@@ -217,5 +217,36 @@ TEST(OneTree, IsRefusedWhereItCannotBe)
     run_frames(scene, multi, keeps);
 }
 
+/// Returns what trees are over where the choice is open, for this many objects of so many triangles.
+TreeOver chosen_trees(uint objects, uint triangles, ColliderChoice choice,
+                      bool share_a_vertex = false)
+{
+    Scene scene = load_scene("soup:" + std::to_string(objects * triangles), {});
+    scene.objects.clear();
+    for (uint k = 0; k < objects; ++k)
+        scene.objects.push_back({.first_face = k * triangles, .face_count = triangles});
+    if (share_a_vertex)
+        scene.faces.back().a = scene.faces.front().a;
+    return trees_over(with_trees(TreeOver::automatic, std::move(choice)),
+                      upload_frame(session(), scene, 0));
+}
+
+TEST(OneTree, IsChosenForManySmallObjects)
+{
+    const ColliderChoice between{{.among = Among::between_objects}, "group"};
+    ColliderChoice drops = between, within = between;
+    drops.keep_adjacent = false;
+    within.among = Among::within_objects;
+    EXPECT_EQ(chosen_trees(512, 2, between), TreeOver::scene);
+    EXPECT_EQ(chosen_trees(512, 16, {{}, "leaf"}), TreeOver::scene);
+    EXPECT_EQ(chosen_trees(512, 2, drops), TreeOver::scene);
+    EXPECT_EQ(chosen_trees(511, 2, between), TreeOver::object) << "few";
+    EXPECT_EQ(chosen_trees(512, 17, between), TreeOver::object) << "large";
+    EXPECT_EQ(chosen_trees(512, 2, within), TreeOver::object);
+    EXPECT_EQ(chosen_trees(512, 2, drops, true), TreeOver::object) << "cannot drop that pair";
+    EXPECT_EQ(chosen_trees(512, 2, {{}, "grid"}), TreeOver::object) << "needs no tree";
+    EXPECT_EQ(trees_over(with_trees(TreeOver::object, between), {}), TreeOver::object) << "named";
+}
+
 }  // namespace
 }  // namespace bvhbench

@@ -123,7 +123,13 @@ void RadixSort::plan_aside(Arena& arena)
 
 void RadixSort::enqueue(Queue& queue, bool is_counted)
 {
+    queue.begin("sort");
     enqueue_passes(queue, static_cast<uint>(size_), codes_, ids(), is_counted);
+}
+
+void RadixSort::enqueue_in_stage(Queue& queue)
+{
+    enqueue_passes(queue, static_cast<uint>(size_), codes_, ids(), false);
 }
 
 void RadixSort::enqueue_aside(Queue& queue, uint count)
@@ -132,13 +138,13 @@ void RadixSort::enqueue_aside(Queue& queue, uint count)
     std::array<Buffer<uint>, 2> codes = codes_;
     if (moves_words_)
         codes[passes_ % 2] = aside_;
+    queue.begin("sort");
     enqueue_passes(queue, count, codes, aside_, false);
 }
 
 void RadixSort::enqueue_passes(Queue& queue, uint count, const std::array<Buffer<uint>, 2>& codes,
                                const Buffer<uint>& result, bool is_counted)
 {
-    queue.begin("sort");
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];

@@ -78,6 +78,9 @@ public:
     /// Enqueues the sort of all pairs. With `is_counted`, `counters` has the counts. Allocates nothing and does not block.
     void enqueue(Queue& queue, bool is_counted = false);
 
+    /// As `enqueue`, in the current stage.
+    void enqueue_in_stage(Queue& queue);
+
     /// Sorts only the first `count` pairs (count >= 1). Writes the ids to `ids_aside`; the ids of an earlier sort are kept.
     void enqueue_aside(Queue& queue, uint count);
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "builders/device_tree.h"
+#include "builders/input.h"
+#include "builders/stages/sort/sort.h"
+
+namespace bvhbench {
+
+/// Objects in the order in which the boxes of their trees begin along one axis, so that a query tests an object against those
+/// near it along that axis instead of against all (the rule `apart`; object_order.clh).
+class ObjectOrder {
+public:
+    /// Objects from which on the order is made: with fewer, all tests take less time than the sort.
+    static constexpr std::size_t least_objects = 512;
+
+    /// `begin` and `place` are kernels of object_order.cl for the tree. The axis is that along which the objects of `input` are
+    /// shortest, compared with the scene. It is right for any frame, and good for those alike. Without host points it is the first.
+    ObjectOrder(Programs& programs, KernelForm form, cl::Kernel begin, cl::Kernel place,
+                const Input& input);
+
+    /// Takes all memory.
+    void plan(Arena& arena, const DeviceTree& tree);
+
+    /// Uploads what the sort needs. Waits.
+    void prepare(const cl::CommandQueue& queue) { sort_.prepare(queue); }
+
+    /// Enqueues the order of the tree's objects in the current stage. Does not block.
+    void enqueue(const DeviceTree& tree, Queue& queue);
+
+    /// Sets the arguments ORDER_PARAMETERS of a kernel from `index` on, then `more`.
+    template <class... Arguments>
+    void bind(cl::Kernel& kernel, cl_uint index, const Arguments&... more) const
+    {
+        set_arguments_from(kernel, index, objects_, axis_, sort_.ids(), ranks_, boxes_, more...);
+    }
+
+private:
+    uint objects_, axis_;
+    RadixSort sort_;
+    cl::Kernel begin_, place_;
+    Buffer<uint> ranks_;
+    Buffer<std::byte> boxes_;
+};
+
+}  // namespace bvhbench
