@@ -8,6 +8,7 @@
 
 #include "collide/counters.h"
 #include "collide/device_lists.h"
+#include "collide/object_order.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {

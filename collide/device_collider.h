@@ -12,10 +12,11 @@
 
 #include "builders/device_tree.h"
 #include "collide/collider.h"
-#include "collide/object_order.h"
 #include "collide/skips.h"
 
 namespace bvhbench {
+
+class ObjectOrder;
 
 class DeviceCollider : public Collider {
 public:

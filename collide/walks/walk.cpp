@@ -6,6 +6,7 @@
 #include "collide/counters.h"
 #include "collide/device_collider.h"
 #include "collide/device_lists.h"
+#include "collide/object_order.h"
 #include "collide/parameters.h"
 #include "collide/walks/collapse.h"
 #include "geometry/bits.h"
