@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "builders/stages/sort/sort.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -43,25 +44,30 @@ ObjectOrder::ObjectOrder(Programs& programs, KernelForm form, cl::Kernel begin, 
                          const Input& input)
     : objects_(static_cast<uint>(input.objects.size()))
     , axis_(best_axis(input))
-    , sort_(programs, 32, sort_shape(programs.device(), form))
+    , sort_(std::make_unique<RadixSort>(programs, 32, sort_shape(programs.device(), form)))
     , begin_(std::move(begin))
     , place_(std::move(place))
 {}
 
+ObjectOrder::~ObjectOrder() = default;
+
 void ObjectOrder::plan(Arena& arena, const DeviceTree& tree)
 {
-    sort_.plan(arena, objects_, false);
+    sort_->plan(arena, objects_, false);
+    lined_up_ = sort_->ids();
     ranks_ = arena.take<uint>(objects_, Use::scratch);
     boxes_ = arena.take<std::byte>(objects_ * tree.box_format().box_bytes(), Use::scratch);
 }
 
+void ObjectOrder::prepare(const cl::CommandQueue& queue) { sort_->prepare(queue); }
+
 void ObjectOrder::enqueue(const DeviceTree& tree, Queue& queue)
 {
     const std::size_t items = divided_up(objects_, 64u) * std::size_t{64};
-    set_arguments_from(begin_, tree.bind(begin_, 0), objects_, axis_, sort_.unsorted_codes());
+    set_arguments_from(begin_, tree.bind(begin_, 0), objects_, axis_, sort_->unsorted_codes());
     queue.launch(begin_, items, 64, static_cast<std::int64_t>(boxes_.bytes() + ranks_.bytes()));
-    sort_.enqueue_in_stage(queue);
-    set_arguments_from(place_, tree.bind(place_, 0), objects_, sort_.ids(), ranks_, boxes_);
+    sort_->enqueue_in_stage(queue);
+    set_arguments_from(place_, tree.bind(place_, 0), objects_, lined_up_, ranks_, boxes_);
     queue.launch(place_, items, 64,
                  static_cast<std::int64_t>(2 * boxes_.bytes() + 2 * ranks_.bytes()));
 }

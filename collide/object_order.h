@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "builders/device_tree.h"
 #include "builders/input.h"
-#include "builders/stages/sort/sort.h"
+#include "builders/stages/kernel_form.h"
 
 namespace bvhbench {
+
+class RadixSort;
 
 /// Objects in the order in which the boxes of their trees begin along one axis, so that a query tests an object against those
 /// near it along that axis instead of against all (the rule `apart`; object_order.clh).
@@ -19,11 +23,13 @@ public:
     ObjectOrder(Programs& programs, KernelForm form, cl::Kernel begin, cl::Kernel place,
                 const Input& input);
 
+    ~ObjectOrder();
+
     /// Takes all memory.
     void plan(Arena& arena, const DeviceTree& tree);
 
     /// Uploads what the sort needs. Waits.
-    void prepare(const cl::CommandQueue& queue) { sort_.prepare(queue); }
+    void prepare(const cl::CommandQueue& queue);
 
     /// Enqueues the order of the tree's objects in the current stage. Does not block.
     void enqueue(const DeviceTree& tree, Queue& queue);
@@ -32,14 +38,14 @@ public:
     template <class... Arguments>
     void bind(cl::Kernel& kernel, cl_uint index, const Arguments&... more) const
     {
-        set_arguments_from(kernel, index, objects_, axis_, sort_.ids(), ranks_, boxes_, more...);
+        set_arguments_from(kernel, index, objects_, axis_, lined_up_, ranks_, boxes_, more...);
     }
 
 private:
     uint objects_, axis_;
-    RadixSort sort_;
+    std::unique_ptr<RadixSort> sort_;
     cl::Kernel begin_, place_;
-    Buffer<uint> ranks_;
+    Buffer<uint> lined_up_, ranks_;
     Buffer<std::byte> boxes_;
 };
 
