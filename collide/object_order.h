@@ -6,6 +6,8 @@
 #include "builders/device_tree.h"
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
+#include "device/arena.h"
+#include "device/program.h"
 
 namespace bvhbench {
 
