@@ -17,7 +17,8 @@ class RadixSort;
 /// near it along that axis instead of against all (the rule `apart`; object_order.clh).
 class ObjectOrder {
 public:
-    /// Objects from which on the order is made: with fewer, all tests take less time than the sort.
+    /// Objects from which on the order is made. On two cores a frame of 600 objects takes 0.5 to 0.8 of its time with
+    /// it (`leaf`, `group`), and the same with `bvtt`; fewer were not tried, nor a GPU.
     static constexpr std::size_t least_objects = 512;
 
     /// `begin` and `place` are kernels of object_order.cl for the tree. The axis is that along which the objects of `input` are
