@@ -74,7 +74,7 @@ protected:
     cl::Kernel kernel(std::string_view path, const char* name, std::vector<Define> more = {},
                       Optimise optimise = Optimise::freely) const;
 
-    /// Returns the order of objects in which pairs of them are found, if there are so many that it pays.
+    /// Returns the order in which pairs of objects are found; null if each object is tested against each.
     std::unique_ptr<ObjectOrder> object_order(const Input& input) const;
 
     /// Sets the arguments that all kernels share, the tree's first, then `more`.

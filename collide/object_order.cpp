@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "collide/object_order.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -17,6 +16,7 @@ std::array<double, 3> sides(const Aabb& box)
             double{box.max_z} - box.min_z};
 }
 
+/// Returns the axis along which objects are shortest, compared with the scene.
 uint best_axis(const Input& input)
 {
     Aabb scene = empty_box();
@@ -42,8 +42,7 @@ uint best_axis(const Input& input)
 
 ObjectOrder::ObjectOrder(Programs& programs, KernelForm form, cl::Kernel begin, cl::Kernel place,
                          const Input& input)
-    : objects_(static_cast<uint>(input.objects.size()))
-    , axis_(best_axis(input))
+    : axis_(best_axis(input))
     , sort_(std::make_unique<RadixSort>(programs, 32, sort_shape(programs.device(), form)))
     , begin_(std::move(begin))
     , place_(std::move(place))
@@ -53,6 +52,7 @@ ObjectOrder::~ObjectOrder() = default;
 
 void ObjectOrder::plan(Arena& arena, const DeviceTree& tree)
 {
+    objects_ = static_cast<uint>(tree.objects.size());
     sort_->plan(arena, objects_, false);
     lined_up_ = sort_->ids();
     ranks_ = arena.take<uint>(objects_, Use::scratch);

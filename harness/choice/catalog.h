@@ -97,7 +97,7 @@ enum class FrameUpdate {
     refit,      ///< built in the first frame and refitted in all others
 };
 
-/// What one of a builder's trees is over. Automatic: what trees_over() of one_tree.h says of a frame.
+/// What one of a builder's trees is over. Automatic: `collide` and experiments choose by the scene (one_tree.h); elsewhere, each object.
 enum class TreeOver { object, scene, automatic };
 
 /// A collider and its options, as chosen on the command line or in an experiment. Result files do not store `form` and `capacity`,

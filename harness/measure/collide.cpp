@@ -19,18 +19,20 @@ void put_choice(const CollideTask& task, SceneFacts& facts)
     facts.between = task.between;
 }
 
-/// Returns the task's pipelines with trees as they are over the frame, and says where one tree was chosen for them.
-std::vector<PipelineState> pipelines_over(const CollideTask& task, const Input& input,
-                                          const SceneLibrary& library)
+/// Returns the task's pipelines with trees as they are over the scene, and says where one tree was chosen. If later frames have other
+/// triangles, each object has its own: the first frame says nothing about their objects.
+std::vector<PipelineState> pipelines_over(const CollideTask& task, const Scene& scene,
+                                          const Input& input, const SceneLibrary& library)
 {
     std::vector<PipelineState> all;
     bool has_chosen = false;
     for (const PipelineChoice& pipeline : task.pipelines) {
         all.push_back({pipeline});
         ColliderChoice& collider = all.back().choice.collider;
-        has_chosen |=
-            collider.trees == TreeOver::automatic && trees_over(collider, input) == TreeOver::scene;
-        collider.trees = trees_over(collider, input);
+        if (collider.trees != TreeOver::automatic)
+            continue;
+        collider.trees = scene.later.empty() ? trees_over(collider, input) : TreeOver::object;
+        has_chosen |= collider.trees == TreeOver::scene;
     }
     if (has_chosen && library.tell)
         library.tell("scene '" + task.scene + "': its " + std::to_string(input.objects.size()) +
@@ -58,7 +60,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     Input input = upload_frame(session, scene.with_frame(frames.first),
                                scene.later.empty() ? frames.first : 0);
     Contest contest(task.sampling.race, frames.end - frames.first > 1 && scene.later.empty());
-    std::vector<PipelineState> all = pipelines_over(task, input, session.scenes());
+    std::vector<PipelineState> all = pipelines_over(task, scene, input, session.scenes());
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
         const Scene& shown = scene.with_frame(frame);
         if (scene.later.empty()) {

@@ -63,16 +63,15 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
 
 TreeOver trees_over(const ColliderChoice& asked, const Input& input)
 {
-    if (asked.trees != TreeOver::automatic)
-        return asked.trees;
+    const std::size_t objects = input.objects.size();
+    if (objects < many_objects || input.triangle_count() > small_object * objects)
+        return TreeOver::object;
     const ColliderEntry& collider = find_collider(asked.name);
-    const bool are_small = input.objects.size() >= many_objects &&
-                           input.triangle_count() <= small_object * input.objects.size();
     const bool can_be =
         collider.needs_tree && collider.outside == nullptr && !input.is_swept() &&
         (asked.among == Among::all || (asked.among == Among::between_objects &&
                                        (asked.keep_adjacent || !share_vertices(input))));
-    return are_small && can_be ? TreeOver::scene : TreeOver::object;
+    return can_be ? TreeOver::scene : TreeOver::object;
 }
 
 std::optional<OneTree> one_tree_for(Session& session, const ColliderChoice& asked,

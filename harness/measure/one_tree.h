@@ -48,8 +48,8 @@ private:
     Input built_, queried_;
 };
 
-/// Returns what the trees of a frame are over, if the choice leaves it open: one tree over the scene if objects are many and small, where
-/// one tree can find the pairs.
+/// Returns what `auto` chooses for a frame: one tree over the scene if its objects are many and small and one tree can find the pairs
+/// that are asked for, else a tree for each object.
 TreeOver trees_over(const ColliderChoice& asked, const Input& input);
 
 /// Returns one tree if `asked` names it, else none. Throws BadUsage as the constructor does, and for a scene of one object.

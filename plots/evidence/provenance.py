@@ -29,7 +29,7 @@ OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narr
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
 PRINTED = "builders/implicit/build_meeting"  # in a folder of others, and one builder's alone
-MANY = "collide/queues/many_"  # the same, and of scenes of 512 objects or more, of which no file speaks
+MANY = "collide/queues/many_"  # in a folder of others; runs for scenes of 512 objects or more, and no result file has one
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "builders/implicit/", PRINTED), "oibvh": ("oibvh/", "builders/implicit/"),
             "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}

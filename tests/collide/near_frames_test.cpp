@@ -56,6 +56,20 @@ TEST_P(NearPipeline, FindsWhatIsFoundWithoutTheRule)
         }
 }
 
+TEST(NearTriangles, AreNotSoughtAmongMoreObjectsThanAreTestedEachAgainstEach)
+{
+    for (const std::size_t objects :
+         {NearTriangles::most_objects, NearTriangles::most_objects + 1}) {
+        ManyObjects many({});
+        const Mesh triangle = crowded_mesh(1);
+        for (std::size_t k = 0; k < objects; ++k)
+            many.add(triangle, 3 * static_cast<float>(k));
+        Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), uploaded(many));
+        EXPECT_EQ(pipeline.counters().contains("near_bytes"),
+                  objects <= NearTriangles::most_objects);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Builders, NearPipeline,
     testing::Values(BuilderChoice{.name = "oibvh-multi"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Queries of so many objects that they are swept in an order instead of tested each against each.
+// Queries of 512 objects or more. They are swept in an order, not tested each against each.
 #include "collide/object_order.h"
 #include "tests/collide/many_objects.h"
 

@@ -5,7 +5,7 @@ import json
 import pathlib
 import sys
 
-from program import expect, main, only, valid
+from program import expect, main, only, run, valid
 
 
 def test_collide_writes_a_valid_result_and_the_pairs():
@@ -79,6 +79,25 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
                                (2, "--narrow exact", "--scene", "soup:9", "--contacts", "k.csv"),
                                (4, "order kd lines up one object, not 9", "--scene", "soup:9", "--order", "kd", "--objects", "components")):
         expect(code, "collide", "--collider", "leaf", *words, says=says)
+
+
+def test_collide_makes_one_tree_over_many_small_objects_and_says_so():
+    row = [f"o {k}\nv {k} 0 0\nv {k}.9 1 0\nv {k + 1} 0 1\nf -3 -2 -1" for k in range(512)]
+    pathlib.Path("row.obj").write_text("\n".join(row))
+    pathlib.Path("row").mkdir()
+    for frame, objects in enumerate((row, row[:1])):  # other triangles from frame to frame
+        pathlib.Path(f"row/{frame}.obj").write_text("\n".join(objects))
+    words = ("collide", "--collider", "group", "--samples", "1", "--json", "t.json", "--force", "--scene")
+    line = "512 objects are small and share one tree; --trees object gives each its own"
+    pairs = set()
+    for more, trees in (((), "scene"), (("--trees", "object"), "object"), (("--trees", "scene"), "scene")):
+        errors = run(*words, "row.obj", *more).stderr
+        cell = only("t.json")
+        assert cell["collider"]["options"]["trees"] == trees and (line in errors) == (not more), (more, cell, errors)
+        pairs.add(cell["counters"]["pairs_count"])
+    assert pairs == {511}, pairs
+    expect(0, *words, "row", "--frames", "0:")
+    assert [cell["collider"]["options"]["trees"] for cell in valid("t.json")["cells"]] == ["object"] * 2
 
 
 def sheet_and_triangle(z: float) -> str:
