@@ -43,9 +43,9 @@ struct Row {
 };
 
 struct Torus {
-    explicit Torus(uint triangles)
-        : triangles(triangles)
-        , quads((std::size_t{triangles} + 1) / 2)
+    explicit Torus(uint count)
+        : triangles(count)
+        , quads((std::size_t{count} + 1) / 2)
         , width(static_cast<std::size_t>(std::sqrt(static_cast<double>(quads))) + 1)
         , height((quads + width - 1) / width)
     {}
