@@ -100,7 +100,9 @@ private:
         if (object_count() > 1)
             roots_ = kernel(order_ ? "collide/queues/many_roots.cl" : "collide/queues/roots.cl",
                             order_ ? "sweep_roots" : "find_roots",
-                            {label, {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
+                            {label,
+                             {"SWEEP_LANES", by_groups() ? ObjectOrder::lanes : 1u},
+                             {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
         expand_ = by_groups() ? kernel("collide/queues/bvtt_groups.cl", "expand",
                                        {{"GROUP_SIZE", group_size_},
                                         {"ITEMS", device().tuned(bvtt_items)},
@@ -150,7 +152,8 @@ private:
             order_->enqueue(tree(), queue);
             order_->bind(roots_, tree().bind(roots_, 0), within() ? 1u : 0u, queues_[0], room,
                          counters_);
-            launch(roots_, object_count(), 64, queue);
+            launch(roots_, std::size_t{object_count()} * (by_groups() ? ObjectOrder::lanes : 1), 64,
+                   queue);
         } else if (!one_object) {
             set_arguments_from(roots_, tree().bind(roots_, 0), object_count(), within() ? 1u : 0u,
                                between(object_count()) ? 1u : 0u, queues_[0], room, counters_);

@@ -84,6 +84,7 @@ private:
                    order_ ? "sweep_between" : "find_between",
                    {{"GROUP_SIZE", by_groups() ? group_size_ : 1u},
                     {"TASK_LEAVES", task_leaves_},
+                    {"SWEEP_LANES", by_groups() ? ObjectOrder::lanes : 1u},
                     {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
                     {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
         between_room_ =
@@ -206,7 +207,7 @@ private:
             order_->enqueue(tree(), queue);
             order_->bind(between_kernel_, tree().bind(between_kernel_, 0), own_, own_count,
                          between_, between_room, counters_);
-            launch(between_kernel_, by_groups() ? own_.size() : chunks_,
+            launch(between_kernel_, by_groups() ? ObjectOrder::lanes * own_.size() : chunks_,
                    by_groups() ? group_size_ : 1, queue);
         } else if (between(object_count())) {
             set_arguments_from(between_kernel_, tree().bind(between_kernel_, 0), own_, own_count,
