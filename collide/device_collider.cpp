@@ -92,7 +92,7 @@ cl::Kernel DeviceCollider::kernel(std::string_view path, const char* name, std::
 std::unique_ptr<ObjectOrder> DeviceCollider::object_order(const Input& input) const
 {
     if (!between(object_count()) || !skips(skip_apart) ||
-        object_count() < ObjectOrder::least_objects)
+        object_count() < ObjectOrder::least_objects(form_))
         return {};
     return std::make_unique<ObjectOrder>(programs(), form_,
                                          kernel("collide/object_order.cl", "begin_objects"),

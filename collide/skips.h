@@ -18,6 +18,7 @@ enum SkipRule : unsigned {
     skip_start_level = 1u << 4,
     skip_near = 1u << 5,
     skip_empty_queue = 1u << 6,
+    skip_margin = 1u << 7,
 };
 
 /// From how many triangles of a scene a rule is used, where that does not depend on the scene.

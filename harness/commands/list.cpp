@@ -72,8 +72,9 @@ Table skips(const CommonOptions&)
     const auto both = [&](const SkipRuleEntry& entry) {
         const std::string cpu = use("CPUs", entry.on_cpu_from),
                           gpu = use("GPUs", entry.on_gpu_from);
-        return cpu.empty() && gpu.empty() ? "on"
-                                          : cpu + (cpu.empty() || gpu.empty() ? "" : ", ") + gpu;
+        return std::min(entry.on_cpu_from, entry.on_gpu_from) == never ? "where forced"
+               : cpu.empty() && gpu.empty()                            ? "on"
+                                            : cpu + (cpu.empty() || gpu.empty() ? "" : ", ") + gpu;
     };
     return lines(skip_rules(), name, both, summary);
 }

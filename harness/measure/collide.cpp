@@ -22,7 +22,7 @@ void put_choice(const CollideTask& task, SceneFacts& facts)
 /// Returns the task's pipelines with trees as they are over the scene, and says where one tree was chosen. If later frames have other
 /// triangles, each object has its own: the first frame says nothing about their objects.
 std::vector<PipelineState> pipelines_over(const CollideTask& task, const Scene& scene,
-                                          const Input& input, const SceneLibrary& library)
+                                          const Input& input, const Session& session)
 {
     std::vector<PipelineState> all;
     bool has_chosen = false;
@@ -31,12 +31,14 @@ std::vector<PipelineState> pipelines_over(const CollideTask& task, const Scene& 
         ColliderChoice& collider = all.back().choice.collider;
         if (collider.trees != TreeOver::automatic)
             continue;
-        collider.trees = scene.later.empty() ? trees_over(collider, input) : TreeOver::object;
+        collider.trees = scene.later.empty()
+                             ? trees_over(collider, input, session.device().is_cpu())
+                             : TreeOver::object;
         has_chosen |= collider.trees == TreeOver::scene;
     }
-    if (has_chosen && library.tell)
-        library.tell("scene '" + task.scene + "': its " + std::to_string(input.objects.size()) +
-                     " objects are small and share one tree; --trees object gives each its own");
+    if (const auto& tell = session.scenes().tell; has_chosen && tell)
+        tell("scene '" + task.scene + "': its " + std::to_string(input.objects.size()) +
+             " objects are small and share one tree; --trees object gives each its own");
     return all;
 }
 
@@ -60,7 +62,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     Input input = upload_frame(session, scene.with_frame(frames.first),
                                scene.later.empty() ? frames.first : 0);
     Contest contest(task.sampling.race, frames.end - frames.first > 1 && scene.later.empty());
-    std::vector<PipelineState> all = pipelines_over(task, scene, input, session.scenes());
+    std::vector<PipelineState> all = pipelines_over(task, scene, input, session);
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
         const Scene& shown = scene.with_frame(frame);
         if (scene.later.empty()) {

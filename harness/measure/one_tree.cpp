@@ -10,7 +10,7 @@ namespace bvhbench {
 namespace {
 
 /// From how many objects on, of at most how many triangles on average, one tree is sooner there than a tree each (docs/frames.md).
-constexpr std::size_t many_objects = 512, small_object = 16;
+constexpr std::size_t many_objects = 512, small_on_cpu = 16, small_elsewhere = 128;
 
 /// Returns true if triangles of two objects have a vertex in common.
 bool share_vertices(const Input& input)
@@ -61,8 +61,9 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
     queried_ = upload_over(built_, session.device(), session.queue(), owners_);
 }
 
-TreeOver trees_over(const ColliderChoice& asked, const Input& input)
+TreeOver trees_over(const ColliderChoice& asked, const Input& input, bool on_cpu)
 {
+    const std::size_t small_object = on_cpu ? small_on_cpu : small_elsewhere;
     const std::size_t objects = input.objects.size();
     if (objects < many_objects || input.triangle_count() > small_object * objects)
         return TreeOver::object;

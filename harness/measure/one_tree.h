@@ -39,6 +39,9 @@ private:
     static const Input& at(Input& input, const Input& frame)
     {
         input.points = frame.points;
+        input.device_points = frame.device_points;
+        input.end_points = frame.end_points;
+        input.device_end_points = frame.device_end_points;
         return input;
     }
 
@@ -50,7 +53,7 @@ private:
 
 /// Returns what `auto` chooses for a frame: one tree over the scene if its objects are many and small and one tree can find the pairs
 /// that are asked for, else a tree for each object.
-TreeOver trees_over(const ColliderChoice& asked, const Input& input);
+TreeOver trees_over(const ColliderChoice& asked, const Input& input, bool on_cpu);
 
 /// Returns one tree if `asked` names it, else none. Throws BadUsage as the constructor does, and for a scene of one object.
 std::optional<OneTree> one_tree_for(Session& session, const ColliderChoice& asked,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "geometry/error.h"
 #include "harness/judge/pair_counts.h"
@@ -84,6 +85,13 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }
+    const bool has_tree_on_device =
+        builder_ == nullptr || dynamic_cast<const DeviceTree*>(tree_) != nullptr;
+    if (skips(skip_margin) && !input.is_swept() && has_tree_on_device && !collider_->keeps_tree() &&
+        !collider_->is_on_host() && !collider_->finds_contacts()) {
+        margin_.emplace(session.programs(), collider.form);
+        margin_->reserve(input);
+    }
 }
 
 void Pipeline::reserve_for(const Input& input)
@@ -115,6 +123,8 @@ void Pipeline::begin_frame(std::span<const Motion> motions)
                              : update_ == FrameUpdate::refit && has_begun_ ? TreeUpdate::refit
                                                                            : TreeUpdate::rebuild;
     has_begun_ = true;
+    if (!is_plain())  // the tree is over boxes with room
+        motions = {};
     if (builder_ == nullptr)
         return;
     if (collider_->keeps_tree() || update_ == FrameUpdate::refit) {
@@ -173,7 +183,9 @@ void Pipeline::choose_entering(const Input& input)
 void Pipeline::enqueue(const Input& input)
 {
     Queue& queue = session_.queue();
-    if (!entering_) {
+    if (!is_plain()) {
+        enqueue_margin(input);
+    } else if (!entering_) {
         enqueue_query(input);
     } else {
         if (updates_.front() != TreeUpdate::keep && near_->find(input, queue) != entering_->counts)
@@ -186,7 +198,7 @@ void Pipeline::enqueue(const Input& input)
     }
     if (!narrow_)
         return;
-    const DevicePairs found = collider_->device_pairs(queue);
+    const DevicePairs found = device_pairs();
     narrow_->query(input, found.pairs, found.counters, queue);
 }
 
@@ -196,7 +208,8 @@ void Pipeline::enqueue_query(const Input& input)
     const Input& of_trees = one_tree_ ? one_tree_->built(input) : input;
     if (builder_ != nullptr &&
         std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) < std::ssize(updates_))
-        take_tree(entering_ ? builder_->build(of_trees, queue) : builder_->update(of_trees, queue),
+        take_tree(entering_ || !is_plain() ? builder_->build(of_trees, queue)
+                                           : builder_->update(of_trees, queue),
                   of_trees);
     collider_->query(tree_, one_tree_ ? one_tree_->queried(input) : input, queue);
 }
@@ -204,19 +217,27 @@ void Pipeline::enqueue_query(const Input& input)
 bool Pipeline::complete()
 {
     const Queue& queue = session_.queue();
-    return !queries() || (collider_->complete(queue) && (!narrow_ || narrow_->complete(queue)));
+    if (!queries())
+        return true;
+    if (does_ != MarginFrame::served && !collider_->complete(queue))
+        return false;
+    if (does_ == MarginFrame::renewed &&
+        std::exchange(listed_, collider_->counts(queue).pairs) != collider_->counts(queue).pairs)
+        return false;  // the filter was launched over as many as an older list had
+    return (is_plain() || margin_->complete(queue)) && (!narrow_ || narrow_->complete(queue));
 }
 
 std::vector<StageTime> Pipeline::prepare(const Input& input)
 {
-    choose_entering(input);
+    begin_margin(input);
+    if (is_plain())
+        choose_entering(input);
     std::vector<StageTime> stages;
     do {
         enqueue(input);
         stages = session_.queue().finish();
     } while (!complete());
-    corner_bytes_ =
-        narrow_ && queries() ? corner_bytes(collider_->pairs(session_.queue()), input) : 0;
+    corner_bytes_ = narrow_ && queries() ? corner_bytes(found_pairs(), input) : 0;
     return stages;
 }
 
@@ -229,7 +250,7 @@ void Pipeline::declare_found(std::vector<StageTime>& stages) const
     const auto bytes = [](std::uint64_t pairs) {
         return static_cast<std::int64_t>(pairs * sizeof(Pair));
     };
-    const std::int64_t pairs = bytes(collider_->counts(queue).pairs);
+    const std::int64_t pairs = bytes(pair_count());
     add_moved_bytes(stages, "broad", pairs);
     if (!narrow_)
         return;
@@ -252,7 +273,7 @@ std::vector<StageTime> Pipeline::once(const Input& input)
 
 std::vector<Pair> Pipeline::pairs() const
 {
-    return queries() ? collider_->pairs(session_.queue()) : std::vector<Pair>();
+    return queries() ? found_pairs() : std::vector<Pair>();
 }
 
 std::vector<Pair> Pipeline::contacts() const

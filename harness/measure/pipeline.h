@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "baselines/radix/uploaded.h"
+#include "collide/margin.h"
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
 #include "harness/choice/catalog.h"
@@ -58,7 +59,10 @@ public:
     std::map<std::string, double> transfers(const Input& input) const;
 
     /// Pairs in device memory, as many as counters() has. Requires has_pairs(), and a frame with triangles to query.
-    DevicePairs device_pairs() { return collider_->device_pairs(session_.queue()); }
+    DevicePairs device_pairs()
+    {
+        return is_plain() ? collider_->device_pairs(session_.queue()) : margin_->found();
+    }
 
     const Collider& collider() const { return *collider_; }
     /// Tree that the last frame queried; null if the collider needs none.
@@ -79,8 +83,13 @@ private:
     void take_tree(const Tree& tree, const Input& of_trees);
     void choose_entering(const Input& input);
     bool queries() const { return !entering_ || entering_->has_pairs(); }
+    bool is_plain() const { return does_ == MarginFrame::plain; }
+    void begin_margin(const Input& input);
+    std::uint64_t pair_count() const;
+    std::vector<Pair> found_pairs() const;
     std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
     void enqueue(const Input& input);
+    void enqueue_margin(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();
     void declare_found(std::vector<StageTime>& stages) const;
@@ -98,8 +107,11 @@ private:
     std::vector<TreeUpdate> updates_;  ///< planned update of each tree
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
-    std::optional<NearTriangles> near_;  ///< if the rule `near` may apply
-    std::optional<Entering> entering_;   ///< if the rule applies; else all triangles enter
+    std::optional<NearTriangles> near_;      ///< if the rule `near` may apply
+    std::optional<Entering> entering_;       ///< if the rule applies; else all triangles enter
+    std::optional<MarginPairs> margin_;      ///< if the rule `margin` may apply
+    MarginFrame does_ = MarginFrame::plain;  ///< what this frame does under that rule
+    std::size_t listed_ = 0;                 ///< pairs on its list
     std::int64_t corner_bytes_ = 0;  ///< bytes that the narrow phase reads for the prepared pairs
 };
 

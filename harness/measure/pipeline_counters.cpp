@@ -58,6 +58,12 @@ std::map<std::string, double> Pipeline::counters() const
         counts.box_tests = counts.tasks = 0;
     if (entering_ && updates_.front() != TreeUpdate::keep)
         *counts.box_tests += near_->box_tests(queue);
+    if (!is_plain()) {
+        counts.box_tests =
+            listed_ + (does_ == MarginFrame::served ? 0 : counts.box_tests.value_or(0));
+        counts.pairs = pair_count();
+        put("listed_count", listed_);
+    }
     put(collider_->finds_contacts() ? "contacts_count" : "pairs_count", counts.pairs);
     if (counts.box_tests)
         put("box_tests_count", *counts.box_tests);
@@ -90,6 +96,10 @@ std::map<std::string, double> Pipeline::counters() const
     if (near_) {
         put("near_bytes", near_->reserved().total());
         memory += near_->reserved().total();
+    }
+    if (margin_) {
+        put("margin_bytes", margin_->bytes());
+        memory += margin_->bytes();
     }
     if (narrow_) {
         const NarrowCounts narrow = queries() ? narrow_->counts(queue) : NarrowCounts{};

@@ -74,7 +74,7 @@ std::size_t best_of(std::span<const Runner> cells)
 
 bool is_of_query(std::string_view stage)
 {
-    return stage == "near" || stage == "ropes" || stage == "collapse" || stage == "broad" ||
+    return stage == "near" || stage == "margin" || stage == "filter" || stage == "ropes" || stage == "collapse" || stage == "broad" ||
            stage == "copy" || stage == "narrow";
 }
 

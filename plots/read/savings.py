@@ -8,7 +8,7 @@ from .cells import Cell, grouped
 FEW = 1000  # a group's box tests vary from run to run: smaller relative differences, 1 in FEW, are ignored
 # What a rule avoids most of, by the name of its amount (Saving.amounts).
 WORK = {"unchanged": "updates", "rigid": "rebuilds", "near": "triangles", "apart": "box tests", "overlap": "box tests",
-        "start-level": "box tests", "empty-queue": "launches"}
+        "start-level": "box tests", "empty-queue": "launches", "margin": "updates"}
 COUNTERS = {"rebuilds": ("rebuilt_objects_count",), "updates": ("rebuilt_objects_count", "refitted_objects_count"),
             "sorts": ("sorts_count",), "tasks": ("tasks_count",), "box tests": ("box_tests_count",)}
 AMOUNTS = ("triangles", "launches", *COUNTERS)

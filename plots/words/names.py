@@ -4,8 +4,8 @@ from typing import Any
 
 # Stages in the order in which they run, by the part of a frame that they belong to (docs/frames.md). A part is named after its
 # stages, so that a figure and a table use one word for one thing.
-PARTS = (("upload", "near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "to_device", "ropes"),
-         ("collapse", "copy", "broad"), ("narrow", "read_back"))
+PARTS = (("upload", "near", "margin", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "to_device", "ropes"),
+         ("collapse", "copy", "broad", "filter"), ("narrow", "read_back"))
 STAGES = tuple(stage for stages in PARTS for stage in stages)
 OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "build", "refit")
 OF_QUERIES = ("ropes", "collapse", "broad", "narrow")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Queries of 512 objects or more. They are swept in an order, not tested each against each.
+// Queries of many objects. They are swept in an order, not tested each against each.
 #include "collide/object_order.h"
 #include "tests/collide/many_objects.h"
 
@@ -43,6 +43,14 @@ protected:
         return made(std::get<0>(GetParam()).name,
                     {.among = among, .rules_off = rules_off, .form = std::get<2>(GetParam())});
     }
+    /// Returns just enough objects to have an order.
+    ManyObjects many() const
+    {
+        const std::size_t least = ObjectOrder::least_objects(std::get<2>(GetParam()));
+        ManyObjects many = crowd(least > 512 ? 13 : 8);
+        EXPECT_GE(many.objects.size(), least);
+        return many;
+    }
     Standing standing(const ManyObjects& many, const BuildOptions& options = {}) const
     {
         return many.standing(find_builder(std::get<1>(GetParam()).name).make, options);
@@ -51,8 +59,7 @@ protected:
 
 TEST_P(ObjectOrderTest, LosesNoPair)
 {
-    ManyObjects many = crowd(8);
-    ASSERT_GE(many.objects.size(), ObjectOrder::least_objects);
+    ManyObjects many = this->many();
     Standing standing = this->standing(many);
     for (const Among among : {Among::between_objects, Among::all}) {
         const auto swept = collider(among);
@@ -79,7 +86,7 @@ TEST_P(ObjectOrderTest, LosesNoPair)
 
 TEST_P(ObjectOrderTest, LosesNoPairInOtherFormats)
 {
-    const ManyObjects many = crowd(8);
+    const ManyObjects many = this->many();
     for (const char* format : {"f64", "u8"}) {
         if (!find_builder(std::get<1>(GetParam()).name).takes_formats)
             continue;

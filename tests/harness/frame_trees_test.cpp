@@ -219,7 +219,7 @@ TEST(OneTree, IsRefusedWhereItCannotBe)
 
 /// Returns what `auto` chooses for `objects` objects of `triangles` triangles each.
 TreeOver chosen_trees(uint objects, uint triangles, ColliderChoice choice,
-                      bool share_a_vertex = false)
+                      bool share_a_vertex = false, bool on_cpu = true)
 {
     Scene scene = load_scene("soup:" + std::to_string(objects * triangles), {});
     scene.objects.clear();
@@ -228,7 +228,7 @@ TreeOver chosen_trees(uint objects, uint triangles, ColliderChoice choice,
     if (share_a_vertex)
         scene.faces.back().a = scene.faces.front().a;
     return trees_over(with_trees(TreeOver::automatic, std::move(choice)),
-                      upload_frame(session(), scene, 0));
+                      upload_frame(session(), scene, 0), on_cpu);
 }
 
 TEST(OneTree, IsChosenForManySmallObjects)
@@ -242,6 +242,8 @@ TEST(OneTree, IsChosenForManySmallObjects)
     EXPECT_EQ(chosen_trees(512, 2, drops), TreeOver::scene);
     EXPECT_EQ(chosen_trees(511, 2, between), TreeOver::object) << "few";
     EXPECT_EQ(chosen_trees(512, 17, between), TreeOver::object) << "large";
+    EXPECT_EQ(chosen_trees(512, 128, between, false, false), TreeOver::scene);
+    EXPECT_EQ(chosen_trees(512, 129, between, false, false), TreeOver::object) << "large";
     EXPECT_EQ(chosen_trees(512, 2, within), TreeOver::object);
     EXPECT_EQ(chosen_trees(512, 2, drops, true), TreeOver::object) << "cannot drop that pair";
     EXPECT_EQ(chosen_trees(512, 2, {{}, "grid"}), TreeOver::object) << "needs no tree";

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+//
+// Random sequences of frames have the same pairs and contacts with all rules of skips.h, with each alone, and with none.
+#include <cmath>
+#include <random>
+
+#include "harness/measure/pipeline.h"
+#include "tests/all_cases.h"
+#include "tests/collide/many_objects.h"
+#include "tests/collide/near_objects.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::size_t frames = 6;
+
+enum class Moves { not_at_all, slowly, fast, rigidly, scaled, folding, away, count };
+
+/// One to 200 objects of 1 to 40 triangles, which rest until a frame and then move, each in its own way.
+class Sequence {
+public:
+    explicit Sequence(unsigned seed) : random_(seed), many({})
+    {
+        const bool is_long = seed % 8 == 7;
+        const unsigned objects = 1 + below(is_long ? 200 : 12);
+        const double rest = uniform();
+        for (std::size_t k = 0; k < objects; ++k) {
+            Mesh part = below(3) == 0 ? scene_mesh("grid:" + std::to_string(2 + 2 * below(16)))
+                                      : crowded_mesh(1 + below(is_long ? 4 : 40));
+            const float y = static_cast<float>(below(4)) * 0.6f;
+            const float z = static_cast<float>(below(4)) * 0.6f;
+            for (Point& point : part.points)
+                point = {point.x, point.y + y, point.z + z};
+            begins_.push_back(2 * below(3));
+            many.add(part, static_cast<float>(below(4)) * 0.6f);
+            moves_.push_back(uniform() < rest
+                                 ? static_cast<Moves>(below(2))
+                                 : static_cast<Moves>(below(static_cast<unsigned>(Moves::count))));
+        }
+        if (below(2) == 0) {  // one moves among others at rest
+            std::fill(moves_.begin(), moves_.end(), Moves::not_at_all);
+            moves_[below(objects)] = Moves::fast;
+        }
+        scene.faces = many.mesh.faces;
+        for (const FaceRange& object : many.objects)
+            scene.objects.push_back({"", object.first, object.count});
+        scene.frames.push_back(many.mesh.points);
+        for (std::size_t frame = 1; frame < frames; ++frame)
+            scene.frames.push_back(moved(scene.frames.back(), frame));
+    }
+
+    unsigned below(unsigned count) { return static_cast<unsigned>(random_() % count); }
+    double uniform() { return static_cast<double>(random_()) / 4294967296.0; }
+
+private:
+    std::vector<Point> moved(std::vector<Point> points, std::size_t frame)
+    {
+        const auto step = static_cast<float>(uniform());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            Point& p = points[k];
+            const float turn = 0.1f * step;
+            const uint owner = many.point_owners[k];
+            switch (frame < begins_[owner] ? Moves::not_at_all : moves_[owner]) {
+                case Moves::not_at_all:
+                case Moves::count:
+                    break;
+                case Moves::slowly:
+                    p.x += 0.004f;
+                    p.z += 0.002f * step;
+                    break;
+                case Moves::fast:
+                    (owner % 3 == 0   ? p.x
+                     : owner % 3 == 1 ? p.y
+                                      : p.z) += owner % 2 == 0 ? step : -step;
+                    break;
+                case Moves::rigidly:
+                    p = {p.x * std::cos(turn) - p.y * std::sin(turn),
+                         p.x * std::sin(turn) + p.y * std::cos(turn), p.z};
+                    break;
+                case Moves::scaled:
+                    p = {p.x * (1 + turn), p.y * (1 + turn), p.z * (1 - turn)};
+                    break;
+                case Moves::folding:
+                    p.z = std::abs(p.x - 0.5f) * (p.z + 1) * turn;
+                    break;
+                case Moves::away:
+                    p.x += k % 2 == 0 ? 1000 * step : 0;
+                    break;
+            }
+        }
+        return points;
+    }
+
+    std::mt19937 random_;
+    std::vector<Moves> moves_;
+    std::vector<std::size_t> begins_;  ///< frame before which an object rests
+
+public:
+    ManyObjects many;
+    Scene scene;
+};
+
+ColliderChoice with_rules(ColliderChoice asked, unsigned used)
+{
+    asked.rules_off = skip_rules_called("all") & ~used;
+    asked.rules_forced = used;
+    return asked;
+}
+
+/// Frames of all tests in which a rule served from a list.
+std::size_t served = 0;
+
+void expect_same_answers(unsigned seed)
+{
+    SCOPED_TRACE("sequence " + std::to_string(seed));
+    Sequence one(seed);
+    constexpr const char* colliders[] = {"group", "leaf", "block", "bvtt", "grid"};
+    constexpr const char* builders[] = {"oibvh-multi", "apetrei-fused", "oibvh-wide4"};
+    ColliderChoice asked;
+    asked.name = colliders[one.below(5)];
+    asked.among = static_cast<Among>(one.many.objects.size() > 1 ? one.below(3) : 2 * one.below(2));
+    asked.keep_adjacent = one.below(2) == 0;
+    asked.narrow = "exact";
+    BuilderChoice builder{.name = builders[one.below(asked.name == std::string("bvtt") ? 2 : 3)]};
+    builder.sorted_leaves = one.below(2) == 0;
+    Input input = uploaded(one.many);
+    std::vector<unsigned> uses = {0, skip_rules_called("all")};
+    for (const SkipRuleEntry& rule : skip_rules())
+        if (rule.applies_to(asked.name))
+            uses.push_back(rule.rule);
+    std::vector<std::unique_ptr<Pipeline>> pipelines;
+    for (const unsigned used : uses)
+        pipelines.push_back(
+            std::make_unique<Pipeline>(session(), builder, with_rules(asked, used), input));
+    for (std::size_t frame = 0; frame < frames; ++frame) {
+        input.points = one.scene.frames[frame];
+        input.device_points.upload(session().queue().cl(), input.points);
+        std::vector<Motion> motions;
+        if (frame > 0)
+            motions = object_motions(one.scene, frame - 1, frame);
+        const PairList pairs = touching_pairs(input.points, input.faces, asked.keep_adjacent,
+                                              input.objects, asked.among);
+        PairList contacts;
+        for (std::size_t k = 0; k < uses.size(); ++k) {
+            SCOPED_TRACE(asked.name + " frame " + std::to_string(frame) + " rules " +
+                         skip_rules_text(uses[k]));
+            pipelines[k]->begin_frame(motions);
+            pipelines[k]->prepare(input);
+            pipelines[k]->once(input);
+            ASSERT_EQ(PairList(pipelines[k]->pairs()), pairs);
+            served += pipelines[k]->counters().contains("listed_count") ? 1 : 0;
+            if (k == 0)
+                contacts = PairList(pipelines[k]->contacts());
+            ASSERT_EQ(PairList(pipelines[k]->contacts()), contacts);
+        }
+    }
+}
+
+TEST(Sequences, HaveTheSameAnswersWithRulesAndWithout)
+{
+    const unsigned count = takes_all_cases() ? 10'000 : takes_few_cases() ? 2 : 72;
+    for (unsigned seed = 0; seed < count && !HasFatalFailure(); ++seed)
+        expect_same_answers(seed);
+    EXPECT_GT(served, count / 2) << "the rule `margin` is tried";
+}
+
+TEST(Margin, FindsWhatComesFromEachSideAfterRest)
+{
+    for (int side = 0; side < 6; ++side) {
+        SCOPED_TRACE(side);
+        const float far = side % 2 == 0 ? 5 : -5;
+        ManyObjects many({});
+        many.add(crowded_mesh(1));
+        many.add(crowded_mesh(1));
+        const std::vector<Point> together = many.mesh.points;
+        for (std::size_t k = 3; k < 6; ++k) {
+            Point& p = many.mesh.points[k];
+            (side < 2 ? p.x : side < 4 ? p.y : p.z) += far;
+        }
+        Input input = uploaded(many);
+        ColliderChoice asked;
+        asked.name = "group";
+        Pipeline pipeline(session(), {.name = "oibvh-multi"}, with_rules(asked, skip_margin),
+                          input);
+        for (int frame = 0; frame < 4; ++frame) {
+            input.points = frame < 3 ? many.mesh.points : together;
+            input.device_points.upload(session().queue().cl(), input.points);
+            pipeline.begin_frame({});
+            pipeline.prepare(input);
+            EXPECT_EQ(pipeline.pairs().size(), frame < 3 ? 0u : 1u);
+            EXPECT_EQ(pipeline.counters().contains("listed_count"), frame == 1 || frame == 2);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace bvhbench
