@@ -62,6 +62,39 @@ Scene generated(std::string_view text, const Generator& generator, std::string_v
     return scene;
 }
 
+/// The counts in the name of a crowd, "W:B" or "W:B:F".
+struct CrowdCounts {
+    uint objects, each, frames;
+};
+
+CrowdCounts crowd_counts(std::string_view text, std::string_view rest)
+{
+    const Parts first(rest), second(first.rest);
+    const auto count = [&](std::string_view number, const char* what) {
+        return count_in(text, number, what, CrowdGenerator::most_triangles);
+    };
+    const CrowdCounts counts = {
+        count(first.head, "number of objects"), count(second.head, "number of triangles an object"),
+        second.head.size() == first.rest.size()
+            ? 1
+            : count_in(text, second.rest, "number of frames", Generator::most_frames)};
+    if (std::uint64_t{counts.objects} * counts.each > CrowdGenerator::most_triangles)
+        throw BadUsage("scene " + in_quotes(text) + " has more than " +
+                       std::to_string(CrowdGenerator::most_triangles) + " triangles");
+    return counts;
+}
+
+Scene generated(std::string_view text, const CrowdGenerator& generator, std::string_view rest)
+{
+    const auto [objects, each, frames] = crowd_counts(text, rest);
+    const std::uint64_t bytes_each =
+        generator.bytes_a_triangle + std::uint64_t{generator.bytes_a_frame} * frames;
+    require_memory(text, std::uint64_t{objects} * each * bytes_each);
+    Scene scene = generator.make(objects, each, frames);
+    scene.has_meshes = true;
+    return scene;
+}
+
 /// A way to derive a scene from another one, such as "refine:SCENE:N".
 struct Derivation {
     std::string_view name, form, summary;
@@ -179,6 +212,12 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
                    there_are(text, names_of(listed), "or a path to a mesh file"));
 }
 
+bool is_generated(std::string_view text)
+{
+    const std::string_view name = Parts(text).head;
+    return generator_called(name) != nullptr || crowd_generator_called(name) != nullptr;
+}
+
 bool looks_like_path(std::string_view text)
 {
     std::error_code error;
@@ -210,6 +249,8 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
     const Parts parts(text);
     if (const Generator* const generator = generator_called(parts.head))
         return generated(text, *generator, parts.rest);
+    if (const CrowdGenerator* const generator = crowd_generator_called(parts.head))
+        return generated(text, *generator, parts.rest);
     if (looks_like_path(text))
         return from_path(text, library);
     unknown(text);
@@ -235,6 +276,9 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library)
                  (generator.moves
                       ? "; F frames, " + std::to_string(generator.usual_frames) + " if left out"
                       : "")});
+    for (const CrowdGenerator& generator : crowd_generators())
+        lines.push_back({std::string(generator.name) + ":" + std::string(generator.letters) + ":F",
+                         std::string(generator.summary) + "; F frames, 1 if left out"});
     for (const Derivation& derivation : derivations)
         lines.push_back({std::string(derivation.form), std::string(derivation.summary)});
     for (const ManifestEntry& entry : manifest())
@@ -248,7 +292,7 @@ std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& 
         return scene_files(derived->base, library);
     if (const ManifestEntry* const entry = manifest_entry(text))
         return {located(*entry, library.data).string()};
-    if (generator_called(Parts(text).head) != nullptr)
+    if (is_generated(text))
         return {};
     return {std::string(text)};
 }
@@ -268,6 +312,10 @@ std::size_t triangles_in_name(std::string_view text)
         const std::size_t colon = generator->moves ? parts.rest.find(':') : parts.rest.npos;
         return triangle_count(text, parts.rest.substr(0, colon), generator->most);
     }
+    if (crowd_generator_called(parts.head) != nullptr) {
+        const CrowdCounts counts = crowd_counts(text, parts.rest);
+        return std::size_t{counts.objects} * counts.each;
+    }
     if (!looks_like_path(text))
         unknown(text);
     return 0;
@@ -286,7 +334,7 @@ std::string scene_name(std::string_view text)
         return name;
     }
     const Parts parts(text);
-    if (manifest_entry(text) != nullptr || generator_called(parts.head) == nullptr)
+    if (manifest_entry(text) != nullptr || !is_generated(text))
         return std::string(text);
     std::string name(parts.head);
     for (std::string_view rest = parts.rest; !rest.empty();) {

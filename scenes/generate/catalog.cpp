@@ -69,6 +69,11 @@ constexpr Generator catalog[] = {
            "one sphere sinks into another, both turn; 2 rigid objects"),
 };
 
+constexpr CrowdGenerator crowds[] = {
+    {"worlds", make_worlds, "W:B", 96, 24,
+     "W worlds of B boxes, an object each: a floor, a robot, and things in piles"},
+};
+
 }  // namespace
 
 std::span<const Generator> generators() { return catalog; }
@@ -77,6 +82,14 @@ const Generator* generator_called(std::string_view name)
 {
     const auto found = std::ranges::find(catalog, name, &Generator::name);
     return found == std::end(catalog) ? nullptr : found;
+}
+
+std::span<const CrowdGenerator> crowd_generators() { return crowds; }
+
+const CrowdGenerator* crowd_generator_called(std::string_view name)
+{
+    const auto found = std::ranges::find(crowds, name, &CrowdGenerator::name);
+    return found == std::end(crowds) ? nullptr : found;
 }
 
 }  // namespace bvhbench

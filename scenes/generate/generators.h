@@ -71,6 +71,13 @@ constexpr uint n_body_count = 305;
 /// Two spheres rotate while one sinks into the other, until a twentieth of each surface is inside the other.
 Scene make_two_spheres(uint triangles, uint frames);
 
+/// Worlds as robots learn in: `worlds` objects of `bodies` boxes each, a degenerate triangle over each box (the lowest corner, and twice
+/// the highest). Lengths are metres, y is up. Body 0 of a world is a floor that reaches below all others, a third of the rest, up to 28,
+/// are links of a robot, and the others lie on the floor in piles of one to three. Robots and a tenth of the piles move, the rest
+/// stands still. Worlds differ, and stand apart in a square, so that methods that know of no worlds find the same pairs.
+/// `worlds` * `bodies` <= 2^28.
+Scene make_worlds(uint worlds, uint bodies, uint frames);
+
 /// A generator by name: "torus:N", or "cloth-ball:N:F" for moving scenes.
 struct Generator {
     static constexpr uint usual_frames = 16, most_frames = 1000;
@@ -86,6 +93,24 @@ struct Generator {
     /// Makes some triangles of a mesh; null if only the whole can be made.
     MeshRun (*run)(uint triangles, FaceRange run) = nullptr;
 };
+
+/// A generator of `objects` objects with `each` triangles each, by name: "worlds:W:B", or "worlds:W:B:F" for F frames.
+struct CrowdGenerator {
+    static constexpr uint most_triangles = 0x10000000u;
+
+    std::string_view name;
+    Scene (*make)(uint objects, uint each, uint frames);
+    std::string_view letters;  ///< of the two counts, as in "W:B"
+    uint bytes_a_triangle;     ///< approximate memory per triangle, and
+    uint bytes_a_frame;        ///< memory per triangle and frame
+    std::string_view summary;
+};
+
+/// Returns all generators of crowds.
+std::span<const CrowdGenerator> crowd_generators();
+
+/// Returns the generator of crowds with this name; nullptr if there is none.
+const CrowdGenerator* crowd_generator_called(std::string_view name);
 
 /// Returns all generators, those of one frame first.
 std::span<const Generator> generators();

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "geometry/hash.h"
+#include "helpers.h"
+#include "scenes/generate/generators.h"
+#include "scenes/motion.h"
+
+namespace bvhbench {
+namespace {
+
+std::vector<Aabb> boxes_of(const Scene& scene, std::size_t frame, std::size_t world)
+{
+    const SceneObject& object = scene.objects[world];
+    return face_boxes(scene.frames[frame],
+                      std::span(scene.faces).subspan(object.first_face, object.face_count));
+}
+
+TEST(Worlds, AreObjectsOfABoxForEachBody)
+{
+    for (const uint worlds : {1u, 2u, 5u})
+        for (const uint bodies : {1u, 2u, 3u, 4u, 60u, 333u}) {
+            const std::string name =
+                "worlds:" + std::to_string(worlds) + ":" + std::to_string(bodies);
+            const Scene scene = load_scene(name, {});
+            EXPECT_EQ(triangles_in_name(name), worlds * bodies);
+            ASSERT_EQ(scene.objects.size(), worlds);
+            EXPECT_EQ(scene.triangle_count(), worlds * bodies);
+            EXPECT_EQ(scene.frames.size(), 1u);
+            EXPECT_TRUE(scene.has_meshes);
+            for (const SceneObject& object : scene.objects)
+                EXPECT_EQ(object.face_count, bodies);
+            for (const Face& face : scene.faces) {
+                const Point low = scene.frames[0][face.a], high = scene.frames[0][face.b];
+                EXPECT_EQ(face.b, face.c);
+                EXPECT_TRUE(low.x < high.x && low.y < high.y && low.z < high.z);
+            }
+        }
+}
+
+TEST(Worlds, StandApart)
+{
+    const Scene scene = load_scene("worlds:6:200", {});
+    std::vector<Aabb> all;
+    for (std::size_t world = 0; world < scene.objects.size(); ++world) {
+        Aabb box = empty_box();
+        for (const Aabb& body : boxes_of(scene, 0, world))
+            box = merged(box, body);
+        for (const Aabb& other : all)
+            EXPECT_FALSE(overlap(box, other));
+        all.push_back(box);
+    }
+}
+
+TEST(Worlds, HaveAFloorBelowARobotAndPiles)
+{
+    const Scene scene = load_scene("worlds:3:500", {});
+    for (std::size_t world = 0; world < 3; ++world) {
+        const std::vector<Aabb> boxes = boxes_of(scene, 0, world);
+        std::size_t pairs = 0;
+        for (std::size_t k = 1; k < boxes.size(); ++k) {
+            EXPECT_LE(boxes[0].min_x, boxes[k].min_x);
+            EXPECT_GE(boxes[0].max_x, boxes[k].max_x);
+            EXPECT_LT(boxes[0].min_y, boxes[k].min_y);
+            EXPECT_TRUE(boxes[k].min_y < 0 || overlap(boxes[k], boxes[k - 1]))
+                << k;  // rests on the floor or on a box, or is a link
+            for (std::size_t other = 0; other < k; ++other)
+                pairs += overlap(boxes[k], boxes[other]) ? 1 : 0;
+        }
+        EXPECT_GT(pairs, boxes.size());
+        EXPECT_LT(pairs, 4 * boxes.size());
+    }
+}
+
+TEST(Worlds, MoveSomeBodiesOfTheirFrames)
+{
+    const Scene scene = load_scene("worlds:2:400:4", {}), two = load_scene("worlds:2:400:2", {});
+    ASSERT_EQ(scene.frames.size(), 4u);
+    for (std::size_t k = 0; k < two.frames[0].size(); ++k)
+        for (const std::size_t frame : {0, 1}) {
+            const Point here = two.frames[frame][k], there = scene.frames[2 * frame + 1][k];
+            EXPECT_TRUE(here.x == there.x && here.y == there.y && here.z == there.z);
+        }
+    std::size_t moved = 0;
+    for (std::size_t k = 0; k < scene.frames[0].size(); ++k)
+        moved += scene.frames[0][k].x != scene.frames[3][k].x ? 1 : 0;
+    EXPECT_GT(moved, scene.frames[0].size() / 20);
+    EXPECT_LT(moved, scene.frames[0].size() / 3);
+    EXPECT_NE(hex(scene.content_hash), hex(load_scene("worlds:2:401:4", {}).content_hash));
+}
+
+// Scenes of published results must not change.
+TEST(Worlds, KeepTheirContent)
+{
+    EXPECT_EQ(hex(load_scene("worlds:3:60", {}).content_hash), "58e729a01b90251d");
+    EXPECT_EQ(hex(load_scene("worlds:2:300:2", {}).content_hash), "827e87f18bc41c34");
+}
+
+TEST(Worlds, AreNamedByTwoCounts)
+{
+    EXPECT_EQ(load_scene("worlds:2:1e2", {}).name, "worlds:2:100");
+    for (const std::string bad : {"", "x:3", "0:3", "-1:3"})
+        EXPECT_TRUE(contains(refusal("worlds:" + bad), "where a number of objects from 1 to"))
+            << bad;
+    for (const std::string bad : {"3", "3:", "3:x", "3:0"})
+        EXPECT_TRUE(contains(refusal("worlds:" + bad), "where a number of triangles an object"))
+            << bad;
+    for (const std::string bad : {"", "0", "1001", "4:4"})
+        EXPECT_TRUE(contains(refusal("worlds:2:3:" + bad), "where a number of frames from 1 to"))
+            << bad;
+    EXPECT_TRUE(contains(refusal("worlds:65536:65536"), "has more than 268435456 triangles"));
+}
+
+}  // namespace
+}  // namespace bvhbench
