@@ -145,6 +145,12 @@ std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& 
 /// No tree: a hash grid with one level of cells for each size of box.
 std::unique_ptr<Collider> make_grid(Programs& programs, const ColliderOptions& options);
 
+/// No tree: each box of an object against each, tile by tile.
+std::unique_ptr<Collider> make_all_pairs(Programs& programs, const ColliderOptions& options);
+
+/// No tree: boxes sorted by object and by where they begin along its axis, then a sweep from each [Liu2010].
+std::unique_ptr<Collider> make_sort_sweep(Programs& programs, const ColliderOptions& options);
+
 /// No tree: sweep and prune, on the host.
 std::unique_ptr<Collider> make_brute(Programs& programs, const ColliderOptions& options);
 

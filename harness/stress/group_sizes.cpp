@@ -35,7 +35,8 @@ std::vector<Asker> askers()
     for (const BuilderChoice& builder : builders)
         all.push_back({{builder, {}}});
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "front-leaf", "grid"})
+        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "front-leaf", "grid",
+                                 "all-pairs", "sort-sweep"})
             all.push_back({{builders[0], {{.form = form}, name}}});
     all.push_back({{builders[0], {.name = "leaf", .narrow = "exact"}}});
     return all;

@@ -16,7 +16,7 @@ WRONG = ("missed_count", "false_count", "contacts_count")
 
 # The hatch of each collider, for pipelines that share a builder's colour. A collider without a tree has its own colour.
 HATCHES = {"leaf": "", "group": "////", "block": "\\\\\\\\", "bvtt": "....", "front": "xxxx", "front-leaf": "++++", "embree-refit": "////", "fcl-refit": "////"}
-COLOURS = {"grid": "#8C510A", "embree": "#009E73", "embree-refit": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
+COLOURS = {"grid": "#8C510A", "all-pairs": "#762A83", "sort-sweep": "#BF812D", "embree": "#009E73", "embree-refit": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
 
 
 @dataclass(frozen=True)

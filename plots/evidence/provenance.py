@@ -35,7 +35,8 @@ BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "b
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
 COLLIDERS = {"leaf": ("collide/walks/leaf", "collide/walks/line_walk", "collide/walks/wide_walk"),
              "group": ("collide/walks/group", "collide/walks/eight_below"), "block": ("collide/walks/block",), "bvtt": ("collide/queues/",),
-             "front": ("collide/front/",), "front-leaf": ("collide/front/",), "grid": ("collide/grid/",)}
+             "front": ("collide/front/",), "front-leaf": ("collide/front/",), "grid": ("collide/grid/",),
+             "all-pairs": ("collide/worlds/all_pairs", "collide/worlds/eight"), "sort-sweep": ("collide/worlds/sweep", "collide/worlds/eight")}
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|^\s*#\s*include.*?$", re.DOTALL | re.MULTILINE)
 
 

@@ -12,7 +12,7 @@ BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfec
 ON_HOST = ("host builders", "Embree", "FCL")
 OWN_LEAVES = ("wide trees", *ON_HOST)  # keep leaf boxes in their own way, whatever is asked
 # Colliders that make a family by themselves, whatever tree they use.
-COLLIDERS = (("front", "front tracking"), ("grid", "hierarchical grid"), ("brute", "sweep"), ("embree", "Embree"), ("fcl", "FCL"))
+COLLIDERS = (("front", "front tracking"), ("grid", "hierarchical grid"), ("all-pairs", "all pairs"), ("sort-sweep", "sort and sweep"), ("brute", "sweep"), ("embree", "Embree"), ("fcl", "FCL"))
 
 NO_FRAME_BEFORE = "start from the frame before, and there is one frame"
 

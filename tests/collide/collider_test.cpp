@@ -142,7 +142,8 @@ TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
 {
     const Standing standing(crowded_mesh(600), "karras");
     const Standing wide(crowded_mesh(600), "oibvh-wide8");
-    for (const char* name : {"leaf", "bvtt", "group", "front", "front-leaf", "grid"})
+    for (const char* name :
+         {"leaf", "bvtt", "group", "front", "front-leaf", "grid", "all-pairs", "sort-sweep"})
         for (const unsigned group_size : {8u, 256u}) {
             SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
             const auto collider =
