@@ -12,6 +12,7 @@
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/tree.h"
+#include "collide/object_filter.h"
 #include "collide/pairs.h"
 #include "device/arena.h"
 #include "device/program.h"
@@ -40,6 +41,8 @@ struct ColliderOptions {
     KernelForm form = KernelForm::of_device;
     /// Initial capacity of pair buffers and queues, in entries; 0: estimated. They grow when too small.
     std::size_t capacity = 0;
+    /// Pairs of objects that are not tested, for colliders that filter (harness/choice/catalog.h); others must not be given any.
+    ObjectFilter filter = {};
 
     bool operator==(const ColliderOptions&) const = default;
 };

@@ -91,12 +91,16 @@ cl::Kernel DeviceCollider::kernel(std::string_view path, const char* name, std::
 
 std::unique_ptr<ObjectOrder> DeviceCollider::object_order(const Input& input) const
 {
-    if (!between(object_count()) || !skips(skip_apart) ||
-        object_count() < ObjectOrder::least_objects(form_))
+    const bool is_useful = between(object_count()) && skips(skip_apart) &&
+                           object_count() >= ObjectOrder::least_objects(form_);
+    if (is_filtered() ? object_count() == 1 : !is_useful)
         return {};
-    return std::make_unique<ObjectOrder>(programs(), form_,
-                                         kernel("collide/object_order.cl", "begin_objects"),
-                                         kernel("collide/object_order.cl", "place_objects"), input);
+    FilterTables tables;
+    if (is_filtered())
+        tables = tables_of(options_.filter, object_count());
+    return std::make_unique<ObjectOrder>(
+        programs(), form_, kernel("collide/object_order.cl", "begin_objects"),
+        kernel("collide/object_order.cl", "place_objects"), input, std::move(tables));
 }
 
 void DeviceCollider::reserve(const Tree* tree, const Input& input)
@@ -108,6 +112,7 @@ void DeviceCollider::reserve(const Tree* tree, const Input& input)
             throw BadUsage(why);
         tree_ = dynamic_cast<const DeviceTree*>(tree);
         triangles_ = tree_->leaf_count();
+        options_.filter.check(object_count());
         if (has_ropes(*tree_))
             ropes_kernel_ = kernel("collide/walks/ropes.cl", "ropes");
     }
@@ -170,7 +175,7 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
 
 std::int64_t DeviceCollider::reads_at_least() const
 {
-    if (!within())  // if all objects are apart, hardly anything is read
+    if (!within() || is_filtered())  // if all objects are apart, hardly anything is read
         return 0;
     const std::int64_t leaves = triangles_, nodes = 2 * leaves - std::ssize(tree_->objects);
     return nodes * static_cast<std::int64_t>(tree_->box_format().box_bytes()) +

@@ -74,7 +74,8 @@ protected:
     cl::Kernel kernel(std::string_view path, const char* name, std::vector<Define> more = {},
                       Optimise optimise = Optimise::freely) const;
 
-    /// Returns the order in which pairs of objects are found; null if each object is tested against each.
+    /// Returns the order in which pairs of objects are found; null if each object is tested against each. With a filter there is one
+    /// whatever is asked of several objects.
     std::unique_ptr<ObjectOrder> object_order(const Input& input) const;
 
     /// Sets the arguments that all kernels share, the tree's first, then `more`.
@@ -96,6 +97,7 @@ protected:
     uint object_count() const { return static_cast<uint>(tree_->objects.size()); }
     bool by_groups() const { return form_ == KernelForm::groups; }
     bool skips(SkipRule rule) const { return (options_.rules_off & rule) == 0; }
+    bool is_filtered() const { return !options_.filter.is_empty(); }
     bool within() const { return options_.among != Among::between_objects; }
     bool between(std::size_t objects) const
     {

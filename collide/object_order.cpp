@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "collide/object_order.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -41,11 +42,12 @@ uint best_axis(const Input& input)
 }  // namespace
 
 ObjectOrder::ObjectOrder(Programs& programs, KernelForm form, cl::Kernel begin, cl::Kernel place,
-                         const Input& input)
+                         const Input& input, FilterTables tables)
     : axis_(best_axis(input))
     , sort_(std::make_unique<RadixSort>(programs, 32, sort_shape(programs.device(), form)))
     , begin_(std::move(begin))
     , place_(std::move(place))
+    , tables_(std::move(tables))
 {}
 
 ObjectOrder::~ObjectOrder() = default;
@@ -57,9 +59,21 @@ void ObjectOrder::plan(Arena& arena, const DeviceTree& tree)
     lined_up_ = sort_->ids();
     ranks_ = arena.take<uint>(objects_, Use::scratch);
     boxes_ = arena.take<std::byte>(objects_ * tree.box_format().box_bytes(), Use::scratch);
+    if (tables_.rules.empty())
+        return;
+    rules_ = arena.take<FilterRule>(objects_, Use::scratch);
+    excluded_ = arena.take<uint>(std::max<std::size_t>(1, tables_.excluded.size()), Use::scratch);
 }
 
-void ObjectOrder::prepare(const cl::CommandQueue& queue) { sort_->prepare(queue); }
+void ObjectOrder::prepare(const cl::CommandQueue& queue)
+{
+    sort_->prepare(queue);
+    if (tables_.rules.empty())
+        return;
+    rules_.upload(queue, tables_.rules);
+    if (!tables_.excluded.empty())
+        excluded_.upload(queue, tables_.excluded);
+}
 
 void ObjectOrder::enqueue(const DeviceTree& tree, Queue& queue)
 {

@@ -14,15 +14,17 @@ PairList overlapping_pairs(std::span<const Aabb> boxes, const WantedPairs& wante
 }
 
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among,
+                        const ObjectFilter& filter)
 {
-    return overlapping_pairs(boxes, WantedPairs(faces, keep_adjacent, objects, among));
+    return overlapping_pairs(boxes, WantedPairs(faces, keep_adjacent, objects, among, filter));
 }
 
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among,
+                        const ObjectFilter& filter)
 {
-    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent, objects, among);
+    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent, objects, among, filter);
 }
 
 }  // namespace bvhbench

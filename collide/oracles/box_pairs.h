@@ -15,15 +15,15 @@ constexpr const char* pairs_oracle = has_exact_reference ? "CGAL boxes" : "brute
 /// host memory is checked before it is taken. Throws Unavailable if it is too small.
 PairList overlapping_pairs(std::span<const Aabb> boxes, const WantedPairs& wanted = {});
 
-/// As overlapping_pairs, for pairs of triangles that `among` accepts; without `keep_adjacent`, only without a common vertex.
+/// As overlapping_pairs, for pairs of triangles that `among` and `filter` accept; without `keep_adjacent`, only without a common vertex.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},
-                        Among among = Among::all);
+                        Among among = Among::all, const ObjectFilter& filter = {});
 
 /// As above, for the boxes of the triangles in one frame.
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},
-                        Among among = Among::all);
+                        Among among = Among::all, const ObjectFilter& filter = {});
 
 /// The same pairs by the hybrid of segment tree and scan in CGAL's package Box_intersection_d [Zomorodian2000], on all cores of the
 /// host. Boxes with a NaN, or with a minimum above their maximum, overlap none. Only in builds with CGAL.

@@ -54,8 +54,8 @@ public:
     {
         queue.on_host("broad", [&] {
             const PairList found = swept_pairs(
-                leaf_boxes(input),
-                WantedPairs(input.faces, options_.keep_adjacent, input.objects, options_.among));
+                leaf_boxes(input), WantedPairs(input.faces, options_.keep_adjacent, input.objects,
+                                               options_.among, options_.filter));
             require_host_memory("collider brute", found.size() * sizeof(Pair));
             found_.assign(found.pairs().begin(), found.pairs().end());
         });

@@ -97,12 +97,15 @@ private:
         const Define label{"LABEL_BITS", node_bits(tree())};
         const Define one_object{"ONE_OBJECT", object_count() == 1 ? 1u : 0u};
         order_ = object_order(input);
+        std::vector<Define> of_roots = {label,
+                                        {"SWEEP_LANES", by_groups() ? ObjectOrder::lanes : 1u},
+                                        {"SKIP_APART", skips(skip_apart) ? 1u : 0u}};
+        if (is_filtered())
+            of_roots.insert(of_roots.end(),
+                            {{"FILTERED", 1u}, {"BETWEEN", between(object_count()) ? 1u : 0u}});
         if (object_count() > 1)
             roots_ = kernel(order_ ? "collide/queues/many_roots.cl" : "collide/queues/roots.cl",
-                            order_ ? "sweep_roots" : "find_roots",
-                            {label,
-                             {"SWEEP_LANES", by_groups() ? ObjectOrder::lanes : 1u},
-                             {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
+                            order_ ? "sweep_roots" : "find_roots", of_roots);
         expand_ = by_groups() ? kernel("collide/queues/bvtt_groups.cl", "expand",
                                        {{"GROUP_SIZE", group_size_},
                                         {"ITEMS", device().tuned(bvtt_items)},
@@ -145,7 +148,7 @@ private:
     void enqueue(const Input& input, Queue& queue) override
     {
         const bool one_object = object_count() == 1;
-        if (one_object && !within())
+        if (one_object && (!within() || !options_.filter.allows(0, 0)))
             return;
         const auto room = static_cast<uint>(queue_room_);
         if (order_) {

@@ -74,19 +74,25 @@ private:
             for (uint first = 0; first < tree().objects[k].leaves; first += task_leaves_)
                 own_list_.push_back(
                     {k, k, first, std::min(task_leaves_, tree().objects[k].leaves - first)});
+        const auto excluded = std::ranges::stable_partition(own_list_, [&](const QueryTask& task) {
+            return options_.filter.allows(task.own, task.own);
+        });
+        within_count_ = static_cast<uint>(own_list_.size() - excluded.size());
         between_room_ = 0;
         order_.reset();
         if (!between(object_count()))
             return;
         order_ = object_order(input);
+        std::vector<Define> defines = {{"GROUP_SIZE", by_groups() ? group_size_ : 1u},
+                                       {"TASK_LEAVES", task_leaves_},
+                                       {"SWEEP_LANES", by_groups() ? ObjectOrder::lanes : 1u},
+                                       {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                                       {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}};
+        if (is_filtered())
+            defines.push_back({"FILTERED", 1u});
         between_kernel_ =
             kernel(order_ ? "collide/queues/many_between.cl" : "collide/queues/between.cl",
-                   order_ ? "sweep_between" : "find_between",
-                   {{"GROUP_SIZE", by_groups() ? group_size_ : 1u},
-                    {"TASK_LEAVES", task_leaves_},
-                    {"SWEEP_LANES", by_groups() ? ObjectOrder::lanes : 1u},
-                    {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
-                    {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+                   order_ ? "sweep_between" : "find_between", defines);
         between_room_ =
             first_room(std::max<std::size_t>(256, 2 * own_list_.size()), sizeof(QueryTask));
     }
@@ -216,7 +222,7 @@ private:
             launch(between_kernel_, by_groups() ? items : chunks_, by_groups() ? group_size_ : 1,
                    queue);
         }
-        const uint tasks_within = within() ? own_count : 0;
+        const uint tasks_within = within() ? within_count_ : 0;
         if (tasks_within + between_room == 0)
             return;
         if (block_pairs_ > 0)
@@ -244,6 +250,7 @@ private:
     cl::Kernel walk_, between_kernel_;
     std::unique_ptr<ObjectOrder> order_;  ///< of many objects
     std::vector<QueryTask> own_list_;     ///< tasks of each object against its own tree
+    uint within_count_ = 0;               ///< how many of them are wanted, the first ones
     std::size_t between_room_ = 0;        ///< capacity of between_, in tasks
     std::optional<Collapse> collapse_;    ///< of `block` over what is not implicit and binary
     Buffer<QueryTask> own_;

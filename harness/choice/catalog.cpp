@@ -89,15 +89,25 @@ constexpr BuilderEntry builders[] = {
 constexpr std::size_t embree_bytes = 128;
 constexpr std::size_t fcl_bytes = 106;
 
+constexpr ColliderEntry filtering(std::string_view name, std::string_view summary,
+                                  MakeCollider make, bool needs_tree = true)
+{
+    return {
+        .name = name, .summary = summary, .make = make, .needs_tree = needs_tree, .filters = true};
+}
+
 // To add a collider, add its line here. There is no other registration.
 constexpr ColliderEntry colliders[] = {
-    {"leaf", "each leaf against the tree, without a stack: by arithmetic, or by ropes", make_leaf},
-    {"bvtt", "pairs of nodes a level after the other, in queues between launches: the paper's",
-     make_bvtt},
-    {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
-     make_group},
-    {"block", "blocks of neighbouring leaves against blocks, then their leaves: binary trees",
-     make_block},
+    filtering("leaf", "each leaf against the tree, without a stack: by arithmetic, or by ropes",
+              make_leaf),
+    filtering("bvtt",
+              "pairs of nodes a level after the other, in queues between launches: the paper's",
+              make_bvtt),
+    filtering("group", "neighbouring leaves as one query with their common box, then leaf by leaf",
+              make_group),
+    filtering("block",
+              "blocks of neighbouring leaves against blocks, then their leaves: binary trees",
+              make_block),
     {.name = "front",
      .summary = "where the frame before stopped, moved to where this one does, over refitted boxes",
      .make = make_front,
@@ -118,10 +128,8 @@ constexpr ColliderEntry colliders[] = {
      .summary = "no tree: boxes sorted along an axis of their object, and swept over",
      .make = make_sort_sweep,
      .needs_tree = false},
-    {.name = "brute",
-     .summary = "sweep and prune on one core of the host, without the tree: the oracle",
-     .make = make_brute,
-     .needs_tree = false},
+    filtering("brute", "sweep and prune on one core of the host, without the tree: the oracle",
+              make_brute, false),
     {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
      make_embree_collider, embree_absent, embree_bytes, true, false},
     {"embree-refit", "the same, its trees refit to moved points", make_embree_refit_collider,
@@ -180,6 +188,25 @@ void require_free(std::string_view name, const std::string& file)
         return;
     throw BadUsage(file + " has a method '" + std::string(name) +
                    "', and there is a builder or collider of that name");
+}
+
+/// Throws BadUsage if the collider cannot leave out pairs of objects as it is asked to.
+void check_filter(const ColliderChoice& choice, const ColliderEntry& entry)
+{
+    if (choice.filter.is_empty())
+        return;
+    std::vector<std::string_view> others;
+    for (const ColliderEntry& other : collider_catalog())
+        if (other.filters)
+            others.push_back(other.name);
+    if (!entry.filters)
+        throw BadUsage(
+            "the collider " + choice.name +
+            " finds pairs of all objects; these leave out what 'exclude' names: " + joined(others));
+    if (entry.needs_tree && (choice.rules_off & skip_apart) != 0)
+        throw BadUsage(
+            "'exclude' is applied where the rule 'apart' is, which therefore cannot be switched "
+            "off");
 }
 
 }  // namespace
@@ -289,6 +316,7 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
 {
     check_narrow(choice.narrow, choice.keep_adjacent);
     const ColliderEntry& entry = find_collider(choice.name);
+    check_filter(choice, entry);
     if (entry.outside != nullptr)
         return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice);
     if (entry.make == nullptr)

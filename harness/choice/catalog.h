@@ -79,6 +79,7 @@ struct ColliderEntry {
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
     bool refits = false;  ///< keeps trees or a front from frame to frame, over the same triangles
     bool is_broken = false;  ///< as that of a builder
+    bool filters = false;    ///< whether it leaves out what ColliderOptions::filter does
 
     /// True if it can be made.
     bool is_there() const { return make != nullptr || outside != nullptr; }

@@ -266,7 +266,7 @@ class Frames(Drawn):
     def test_every_collider_has_a_look(self) -> None:
         catalog = (ROOT / "harness" / "choice" / "catalog.cpp").read_text(encoding="utf-8")
         listed = catalog.split("constexpr ColliderEntry colliders[]")[1]
-        colliders = re.findall(r"^    \{(?:\.name = )?\"([a-z-]+)\"", listed, re.MULTILINE)
+        colliders = re.findall(r"^    (?:\{(?:\.name = )?|filtering\()\"([a-z-]+)\"", listed, re.MULTILINE)
         self.assertGreater(len(colliders), 8)
         for collider in colliders:
             self.assertTrue(collider in pipelines.HATCHES or collider in pipelines.COLOURS, collider)
