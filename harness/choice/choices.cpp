@@ -11,6 +11,7 @@
 #include "builders/orders.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
+#include "harness/choice/filter_words.h"
 
 namespace bvhbench {
 namespace {
@@ -170,6 +171,15 @@ constexpr Choice table[] = {
          return true;
      },
      [](const CellChoice& choice) { return Json(objects_by_name(choice.scene.objects)); }},
+    {"exclude", Of::scene, "none, a pair of objects A,B or @FILE",
+     "objects A,B that are not tested with each other, by name or number (A,A: within A), or @FILE "
+     "of lines 'exclude A B' and 'group A WORD MASK'",
+     [](CellChoice& choice, const std::string& word) {
+         if (word == "none")
+             choice.scene.exclude.clear();
+         return word == "none" || add_exclude_words(choice.scene.exclude, word);
+     },
+     value_of<scene, &SceneChoice::exclude>},
     {"swept", Of::scene, "true or false",
      "boxes around the way from each frame to the next: vertices against faces, and edges against "
      "edges; --pairs-of between or within has one of the two",
@@ -255,7 +265,7 @@ void add_choices(CLI::App& command, CellChoice& choice,
                 ->type_name(usual.is_number() ? "UINT" : "TEXT")
                 ->default_str(usual.is_string() && option.key != "leaves" ? usual.get<std::string>()
                                                                           : "");
-        if (!option.key.ends_with("_skip"))  // those may be repeated, once for each rule
+        if (!option.key.ends_with("_skip") && option.key != "exclude")  // those may be repeated
             added->expected(1);
     }
 }

@@ -62,6 +62,11 @@ void check_swept(const CollideTask& task)
     if (task.objects != ObjectsBy::automatic)
         throw BadUsage(
             "swept, objects are the scene's vertices, faces and edges, and nobody chooses them");
+    if (!task.exclude.empty())
+        throw BadUsage(
+            "swept, objects are the scene's vertices, faces and edges, and 'exclude' is about "
+            "those "
+            "of the scene");
     for (const PipelineChoice& pipeline : task.pipelines) {
         if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
             find_order(pipeline.builder.order).medians != Medians::nowhere)

@@ -38,9 +38,10 @@ std::string frame_range_text(const FrameRange& range);
 /// Options of a scene besides its name.
 struct SceneChoice {
     ObjectsBy objects = ObjectsBy::automatic;
-    unsigned between = 0;    ///< frames inserted between consecutive frames of the scene
-    bool swept = false;      ///< boxes enclose the motion from each frame to the next
-    FrameRange frames = {};  ///< if swept: the frames in which motions begin
+    unsigned between = 0;      ///< frames inserted between consecutive frames of the scene
+    bool swept = false;        ///< boxes enclose the motion from each frame to the next
+    std::string exclude = {};  ///< objects that are not tested with each other (filter_words.h)
+    FrameRange frames = {};    ///< if swept: the frames in which motions begin
 };
 
 /// A scene, the pipelines that collide it, and how often each is sampled.

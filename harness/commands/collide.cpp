@@ -95,11 +95,12 @@ private:
     /// Throws BadUsage if what is found cannot tell which objects are inside others.
     void check_containment() const
     {
-        if (containment_ && (choice_.scene.swept || choice_.collider.narrow != "exact" ||
-                             choice_.collider.among == Among::within_objects))
+        if (containment_ &&
+            (choice_.scene.swept || !choice_.scene.exclude.empty() ||
+             choice_.collider.narrow != "exact" || choice_.collider.among == Among::within_objects))
             throw BadUsage(
                 "--containment needs all exact contacts between objects: --narrow exact, without "
-                "--swept and --pairs-of within");
+                "--swept, --exclude and --pairs-of within");
     }
 
     /// Records which objects of a frame are inside others in its cells.

@@ -5,6 +5,7 @@
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
+#include "harness/choice/filter_words.h"
 #include "harness/measure/frames.h"
 #include "scenes/generate/derived.h"
 
@@ -17,18 +18,24 @@ void put_choice(const CollideTask& task, SceneFacts& facts)
     if (task.objects != ObjectsBy::automatic)
         facts.objects_by = objects_by_name(task.objects);
     facts.between = task.between;
+    facts.exclude = task.exclude;
 }
 
-/// Returns the task's pipelines with trees as they are over the scene, and says where one tree was chosen. If later frames have other
+/// Returns the task's pipelines with trees and filters as they are over the scene, and says where one tree was chosen. If later frames have other
 /// triangles, each object has its own: the first frame says nothing about their objects.
 std::vector<PipelineState> pipelines_over(const CollideTask& task, const Scene& scene,
                                           const Input& input, const Session& session)
 {
+    const ObjectFilter filter = filter_of(task.exclude, scene);
+    if (!filter.is_empty() && !scene.later.empty())
+        throw BadUsage("'exclude' is about objects of all frames, and frames of scene '" +
+                       task.scene + "' have other triangles than the first");
     std::vector<PipelineState> all;
     bool has_chosen = false;
     for (const PipelineChoice& pipeline : task.pipelines) {
         all.push_back({pipeline});
         ColliderChoice& collider = all.back().choice.collider;
+        collider.filter = filter;
         if (collider.trees != TreeOver::automatic)
             continue;
         collider.trees = scene.later.empty()
@@ -79,6 +86,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
                              .scene = facts_of(task, shown, frame)};
         if (frame > frames.first && scene.later.empty())
             now.motions = object_motions(scene, frame - 1, frame);
+        now.scene.filter_hash = all.empty() ? 0 : all.front().choice.collider.filter.hash();
         now.file_faces = shown.file_faces;
         now.wants_lists = task.wants_lists;
         now.note = note_of(task, "frame " + std::to_string(frame), frame - frames.first,

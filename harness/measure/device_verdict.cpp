@@ -32,16 +32,20 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
     const PairList of_sample(sample.of_device(session.programs(), pipeline.device_pairs(),
                                               facts.count, session.queue()));
 
-    const bool is_grid = choice.name == "grid";
-    const ColliderChoice other = {{.among = choice.among, .keep_adjacent = choice.keep_adjacent},
-                                  is_grid ? "leaf" : "grid"};
-    Pipeline second(session, {.name = is_grid ? "oibvh-multi" : "none"}, other, input);
+    const bool grid_can = choice.name != "grid" && choice.filter.is_empty();
+    const ColliderChoice other = {
+        {.among = choice.among, .keep_adjacent = choice.keep_adjacent, .filter = choice.filter},
+        grid_can                ? "grid"
+        : choice.name == "leaf" ? "bvtt"
+                                : "leaf"};
+    Pipeline second(session, {.name = grid_can ? "none" : "oibvh-multi"}, other, input);
     second.prepare(input);
     const PairFacts others = facts_on_device(session, second);
 
     require_host_memory("checking the pairs of a sample", input.faces.size() * sizeof(Aabb));
     const PairList right = sample.by_brute_force(
-        leaf_boxes(input), {input.faces, choice.keep_adjacent, input.objects, choice.among});
+        leaf_boxes(input),
+        {input.faces, choice.keep_adjacent, input.objects, choice.among, choice.filter});
 
     Check check = {.verdict = Check::Verdict::agrees,
                    .against = other.name + ", brute over a sample",

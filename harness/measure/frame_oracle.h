@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "collide/oracles/box_pairs.h"
@@ -158,13 +159,13 @@ public:
 
     const Expected& pairs(const ColliderChoice& choice)
     {
-        const std::pair asked(choice.among, choice.keep_adjacent);
+        const Asked asked = asked_of(choice);
         Expected& pairs = entries_[asked].pairs;
         if (!pairs.is_asked())
-            pairs = Expected(key_of(asked, 'p'), "pairs", note_, [this, asked](OracleProgress&) {
+            pairs = Expected(key_of(asked, 'p'), "pairs", note_, [this, choice](OracleProgress&) {
                 require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
-                return Answer(touching_pairs(leaf_boxes(input_), input_.faces, asked.second,
-                                             input_.objects, asked.first),
+                return Answer(touching_pairs(leaf_boxes(input_), input_.faces, choice.keep_adjacent,
+                                             input_.objects, choice.among, choice.filter),
                               file_faces_);
             });
         return pairs;
@@ -173,7 +174,7 @@ public:
     const Expected& contacts(const ColliderChoice& choice)
     {
         const std::shared_future<Answer> pairs = this->pairs(choice).later();
-        const std::pair asked(choice.among, choice.keep_adjacent);
+        const Asked asked = asked_of(choice);
         Expected& contacts = entries_[asked].contacts;
         if (!contacts.is_asked())
             contacts = Expected(
@@ -187,7 +188,7 @@ public:
                                                          input_.faces, candidates, &progress.done)),
                             file_faces_);
                     Answer answer(intersecting_pairs(input_.points, input_.faces, candidates,
-                                                     asked.second, &progress.done),
+                                                     std::get<1>(asked), &progress.done),
                                   file_faces_);
                     answer.facts.touching =
                         only_touching(input_.points, input_.faces, answer.list.pairs());
@@ -200,8 +201,12 @@ private:
     /// Changes whenever an oracle answers differently, so that older answers are not found.
     static constexpr int oracle_version = 1;
 
-    using Asked =
-        std::pair<Among, bool>;  ///< the kind of pairs, and whether adjacent ones are kept
+    /// The kind of pairs, whether adjacent ones are kept, and the hash of the filter.
+    using Asked = std::tuple<Among, bool, std::uint64_t>;
+    static Asked asked_of(const ColliderChoice& choice)
+    {
+        return {choice.among, choice.keep_adjacent, choice.filter.hash()};
+    }
     struct Entry {
         Expected pairs, contacts;
     };
@@ -209,8 +214,10 @@ private:
     std::uint64_t key_of(const Asked& asked, char list) const
     {
         Hash key = content_;
-        key.value(static_cast<int>(asked.first));
-        key.value(asked.second);
+        key.value(static_cast<int>(std::get<0>(asked)));
+        key.value(std::get<1>(asked));
+        if (const std::uint64_t filter = std::get<2>(asked); filter != 0)
+            key.value(filter);
         key.value(list);
         return key.get();
     }

@@ -47,6 +47,10 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
         throw BadUsage(
             "one tree over the scene finds pairs of all objects: for pairs within "
             "objects 'trees' is object");
+    if (!asked.filter.is_empty())
+        throw BadUsage(
+            "one tree over the scene does not tell its objects apart: with 'exclude' 'trees' is "
+            "object");
     built_.objects = {{0, input.triangle_count()}};
     if (asked.among == Among::all)
         return;
@@ -65,7 +69,8 @@ TreeOver trees_over(const ColliderChoice& asked, const Input& input, bool on_cpu
 {
     const std::size_t small_object = on_cpu ? small_on_cpu : small_elsewhere;
     const std::size_t objects = input.objects.size();
-    if (objects < many_objects || input.triangle_count() > small_object * objects)
+    if (!asked.filter.is_empty() || objects < many_objects ||
+        input.triangle_count() > small_object * objects)
         return TreeOver::object;
     const ColliderEntry& collider = find_collider(asked.name);
     const bool can_be =

@@ -81,7 +81,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
         input.objects.size() <= NearTriangles::most_objects && !input.is_swept() &&
-        builder_ != nullptr && !collider_->keeps_tree() && !one_tree_) {
+        builder_ != nullptr && !collider_->keeps_tree() && !one_tree_ &&
+        collider.filter.is_empty()) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }

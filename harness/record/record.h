@@ -56,9 +56,11 @@ constexpr std::string_view verdict_name(Check::Verdict verdict)
 /// The triangles of a cell.
 struct SceneFacts {
     std::string name;
-    std::string objects_by = {};  ///< what makes an object; empty: as the scene was loaded
-    std::int64_t between = 0;     ///< frames inserted between consecutive frames of the scene
-    std::int64_t triangles = 0;   ///< 0: the members below are unknown
+    std::string objects_by = {};    ///< what makes an object; empty: as the scene was loaded
+    std::int64_t between = 0;       ///< frames inserted between consecutive frames of the scene
+    std::string exclude = {};       ///< the words of the filter of objects, as they were given
+    std::uint64_t filter_hash = 0;  ///< of groups, masks and excluded objects; 0: none
+    std::int64_t triangles = 0;     ///< 0: the members below are unknown
     std::int64_t vertices = 0;
     std::int64_t objects = 0;
     std::int64_t frame = 0;

@@ -9,7 +9,7 @@ import numpy
 from ..words import names
 
 Item = TypeVar("Item")
-OF_SCENE = {"frame": 0, "stand_in_for": "", "objects_by": "", "between": 0}  # what distinguishes scenes of one name; defaults
+OF_SCENE = {"frame": 0, "stand_in_for": "", "objects_by": "", "between": 0, "exclude": ""}  # what distinguishes scenes of one name; defaults
 OF_RANKS = ("ranks_count", "partition", "boxes_count", "simulated", "shares_devices", "asked_frames", "rebalance")
 MESSAGES_NS = 100_000  # least time that is put down to the messages of a method from outside
 Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in which stages ran

@@ -80,7 +80,8 @@ def in_full(choice: Mapping[str, Any]) -> str:
 def scene(facts: Mapping[str, object]) -> str:
     """Returns the name of a scene, with its settings that are not the defaults."""
     objects, between = facts.get("objects_by"), facts.get("between", 0)
-    return f"{facts['name']}{f', objects: {objects}' if objects else ''}{f', {between} between' if between else ''}"
+    told = {f"objects: {objects}": objects, f"{between} between": between, f"without {facts.get('exclude')}": facts.get("exclude")}
+    return ", ".join([str(facts["name"]), *(text for text, is_set in told.items() if is_set)])
 
 
 def frames(numbers: list[int]) -> str:
