@@ -46,23 +46,43 @@ Pairs Tree::Impl::found_by(Collider& from)
             .count = from.counts(device->queue).pairs};
 }
 
+Pairs Tree::Impl::find_pairs(Among among, ObjectFilter filter)
+{
+    const ImplicitTree& over = standing("a query");
+    const bvhbench::Among wanted = internal(among);
+    filter.check(over.objects.size());
+    begin();
+    last_query = nullptr;
+    Query& query = queries[static_cast<std::size_t>(among)];
+    if (query.filter != filter)
+        query = {};
+    query.filter = std::move(filter);
+    if (query.collider == nullptr)
+        query.collider = collider.make(
+            device->programs,
+            {.among = wanted, .keep_adjacent = options.adjacent_pairs, .filter = query.filter});
+    if (!std::exchange(query.is_ready, false))  // set again on success
+        query.collider->reserve(&over, taker.taken());
+    bvhbench::find_pairs(*query.collider, &over, taker.taken(), device->queue);
+    query.is_ready = true;
+    return found_by(*query.collider);
+}
+
 Pairs Tree::find_pairs(Among among)
 {
-    return as_call(*impl_->device, [among, &own = *impl_] {
-        const ImplicitTree& over = own.standing("a query");
-        const bvhbench::Among wanted = internal(among);
-        own.begin();
-        own.last_query = nullptr;
-        Impl::Query& query = own.queries[static_cast<std::size_t>(among)];
-        if (query.collider == nullptr)
-            query.collider =
-                own.collider.make(own.device->programs,
-                                  {.among = wanted, .keep_adjacent = own.options.adjacent_pairs});
-        if (!std::exchange(query.is_ready, false))  // set again on success
-            query.collider->reserve(&over, own.taker.taken());
-        bvhbench::find_pairs(*query.collider, &over, own.taker.taken(), own.device->queue);
-        query.is_ready = true;
-        return own.found_by(*query.collider);
+    return as_call(*impl_->device,
+                   [among, &own = *impl_] { return own.find_pairs(among, ObjectFilter{}); });
+}
+
+Pairs Tree::find_pairs(Among among, const Filter& filter)
+{
+    return as_call(*impl_->device, [among, &filter, &own = *impl_] {
+        std::vector<bvhbench::Pair> excluded;
+        for (const Excluded& pair : filter.excluded)
+            excluded.push_back({pair.a, pair.b});
+        return own.find_pairs(among, {.groups = {filter.groups.begin(), filter.groups.end()},
+                                      .masks = {filter.masks.begin(), filter.masks.end()},
+                                      .excluded = excluded_pairs(std::move(excluded))});
     });
 }
 

@@ -74,6 +74,9 @@ struct Tree::Impl {
     /// Returns the current tree. Throws BadUsage, whose message begins with `what`, if there is none.
     const ImplicitTree& standing(const char* what) const;
 
+    /// Runs a query of the current tree.
+    Pairs find_pairs(Among among, ObjectFilter filter);
+
     /// Returns the pairs of the collider's last query, and remembers the collider for `read_pairs`.
     Pairs found_by(Collider& collider);
 
@@ -88,6 +91,7 @@ struct Tree::Impl {
     struct Query {
         std::unique_ptr<Collider> collider;  ///< null until the first query
         bool is_ready = false;               ///< whether the collider's memory is reserved
+        ObjectFilter filter = {};            ///< of the collider
     };
     std::array<Query, 3> queries;  ///< by Among
     JoinedTrees joined;

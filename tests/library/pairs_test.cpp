@@ -127,6 +127,40 @@ TEST_F(LibraryPairs, OfObjectsAreToldApart)
     }
 }
 
+TEST_F(LibraryPairs, LeaveOutWhatAFilterDoes)
+{
+    const ThreeObjects objects;
+    const std::vector<oibvh::Excluded> excluded = {{2, 1}, {1, 1}, {1, 2}};
+    const std::vector<std::uint32_t> groups = {1, 2, 4}, masks = {~0u, 4, 2};  // 0 meets nobody
+    const struct {
+        oibvh::Filter given;
+        ObjectFilter meant;
+    } filters[] = {{{}, {}},
+                   {{.excluded = excluded}, {.excluded = {{1, 1}, {1, 2}}}},
+                   {{.groups = groups, .masks = masks}, {.excluded = {{0, 1}, {0, 2}}}},
+                   {{.excluded = excluded, .groups = groups, .masks = masks},
+                    {.excluded = {{0, 1}, {0, 2}, {1, 1}, {1, 2}}}}};
+    const std::pair<oibvh::Among, Among> amongs[] = {
+        {oibvh::Among::all, Among::all},
+        {oibvh::Among::between_objects, Among::between_objects},
+        {oibvh::Among::within_objects, Among::within_objects}};
+    for (const char* collider : {"leaf", "group", "block", "bvtt"}) {
+        oibvh::Tree tree(device, {.collider = collider});
+        tree.build(objects.mesh.on_host(), objects.sizes);
+        for (const auto& [given, meant] : filters)
+            for (const auto& [asked, among] : amongs) {
+                tree.find_pairs(asked, given);
+                const PairList wanted = chosen(objects.right(among), [&](Pair pair) {
+                    const auto owner = [](uint k) { return k < 1 ? 0u : k < 301 ? 1u : 2u; };
+                    return meant.allows(owner(pair.a), owner(pair.b));
+                });
+                EXPECT_EQ(pair_list(tree.read_pairs()), wanted)
+                    << collider << meant.excluded.size();
+            }
+        expect_right(tree, caller, objects, collider);  // without a filter again
+    }
+}
+
 TEST_F(LibraryPairs, FollowTrianglesThatMove)
 {
     using oibvh::Update;

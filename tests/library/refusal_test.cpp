@@ -193,6 +193,20 @@ TEST_F(LibraryRefuses, TreesThatCannotBeHeldAgainstEachOther)
               "a query between trees wants trees of one object each, and one has 2");
 }
 
+TEST_F(LibraryRefuses, FiltersOfOtherObjects)
+{
+    const Sizes sizes = {100, 200}, groups = {1}, masks = {1, 2, 3};
+    const std::vector<oibvh::Excluded> excluded = {{0, 1}, {2, 0}};
+    tree.build(mesh.on_host(), sizes);
+    const auto why = [&](const oibvh::Filter& filter) {
+        return sentence<BadInput>([&] { tree.find_pairs(oibvh::Among::all, filter); });
+    };
+    EXPECT_EQ(why({.excluded = excluded}), "a filter excludes object 2, and there are 2 objects");
+    EXPECT_EQ(why({.groups = groups}), "a filter has 1 groups, and there are 2 objects");
+    EXPECT_EQ(why({.masks = masks}), "a filter has 3 masks, and there are 2 objects");
+    EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh));
+}
+
 TEST_F(LibraryRefuses, NumbersThatNameNothingToChoose)
 {
     tree.build(mesh.on_host());

@@ -167,6 +167,20 @@ enum class Update { rebuild, refit, keep };
 /// Which pairs a query reports: all, only those of two different objects, or only those within one object.
 enum class Among { all, between_objects, within_objects };
 
+/// Two objects that a query does not test, or one object twice: pairs within it. 8 bytes.
+struct Excluded {
+    std::uint32_t a, b;
+};
+
+/// Which pairs of objects a query tests. Host arrays, which are copied.
+struct Filter {
+    std::span<const Excluded> excluded = {};  ///< in any order
+    /// For each object, bits of what it is and of what it is tested against; empty: all bits are set. Two objects are tested if
+    /// (groups[a] & masks[b]) != 0 and (groups[b] & masks[a]) != 0. Pairs within an object do not depend on them.
+    std::span<const std::uint32_t> groups = {};
+    std::span<const std::uint32_t> masks = {};
+};
+
 /// Device buffers of a tree. The tree owns the handles; they are valid until it is built over other sizes or destroyed, and
 /// every build rewrites their contents. To read them from another queue, the caller must synchronize the queues.
 struct Buffers {
@@ -251,6 +265,10 @@ public:
     /// pair is dropped. Waits. Throws BadInput for an unknown Among, after which the pairs of the last query can still be
     /// read, and Unavailable for more than 2^32 - 1 pairs or too little memory.
     Pairs find_pairs(Among among = Among::all);
+
+    /// The same without pairs of objects that `filter` leaves out. A query with another filter than the last one of this Among takes
+    /// its memory anew. Throws BadInput for an object that there is not, or groups or masks of another number of objects.
+    Pairs find_pairs(Among among, const Filter& filter);
 
     /// Finds the overlapping pairs of one element of this tree (Pair::a) and one of `other` (Pair::b), each an index into its
     /// own tree's input. Copies both trees. Waits. Throws BadInput unless both trees belong to one Device, have one object
