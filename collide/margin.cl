@@ -35,16 +35,16 @@ kernel void check_room(global const Point* restrict points, global const Point* 
     }
 }
 
-/// Gives each vertex the box around its way in the next `frames` frames if it goes on as from `before`, and a share of that way more
-/// to all sides, since motion changes. A vertex whose room would not be finite gets none.
+/// Gives each vertex the box around its way in the next `frames` frames if it goes on as from `before`, and to all sides `skin` and a
+/// share of that way more, since motion changes. A vertex whose room would not be finite gets none.
 kernel void give_room(global const Point* restrict before, global const Point* restrict points,
-                      const float frames, const float share, global Point* restrict low,
-                      global Point* restrict high, const uint count)
+                      const float frames, const float share, const float skin,
+                      global Point* restrict low, global Point* restrict high, const uint count)
 {
     const Chunk part = own_chunk(count);
     for (uint k = part.first; k < part.end; ++k) {
         const float3 p = point_at(points, k), way = (p - point_at(before, k)) * frames;
-        const float slack = share * max(max(fabs(way.x), fabs(way.y)), fabs(way.z));
+        const float slack = skin + share * max(max(fabs(way.x), fabs(way.y)), fabs(way.z));
         const float3 from = min(p, p + way) - slack, to = max(p, p + way) + slack;
         const bool is_finite =
             is_within((float3)(-MAXFLOAT), from, to) && is_within(from, to, (float3)(MAXFLOAT));

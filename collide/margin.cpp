@@ -26,6 +26,9 @@ constexpr uint pairs_each = 8;
 constexpr double room_a_side = 0.25;
 constexpr float slack = 0.1f;
 
+/// Room that each vertex has in any case, of a triangle's side: one at rest may begin to move, and one may turn.
+constexpr double skin_a_side = 0.02;
+
 /// Frames that room is given for. A list of fewer does not pay: filtering takes two thirds of a frame on two cores.
 constexpr double least_frames = 6, most_frames = 16;
 
@@ -119,8 +122,10 @@ MarginFrame MarginPairs::begin(const Input& input, Queue& queue)
     served_ = -1;
     if (before.empty() || plain_left_-- > 0)
         return MarginFrame::plain;
+    const double side = mean_side(input);
+    skin_ = static_cast<float>(skin_a_side * side);
     frames_ = static_cast<float>(
-        std::min(most_frames, room_a_side * mean_side(input) / mean_way(before, input.points)));
+        std::min(most_frames, room_a_side * side / mean_way(before, input.points)));
     if (!(frames_ >= least_frames))
         return MarginFrame::plain;
     plain_left_ = served_ = 0;
@@ -153,7 +158,7 @@ bool MarginPairs::still_serves(const Input& input, Queue& queue)
 Input MarginPairs::with_room(const Input& input, Queue& queue)
 {
     queue.begin("margin");
-    set_arguments(give_, before_, input.device_points, frames_, slack, low_, high_,
+    set_arguments(give_, before_, input.device_points, frames_, slack, skin_, low_, high_,
                   static_cast<uint>(low_.size()));
     launch(give_, low_.size(), static_cast<std::int64_t>(4 * low_.bytes()), queue);
     Input wide = input;

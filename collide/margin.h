@@ -73,6 +73,7 @@ private:
     Buffer<Pair> pairs_, blocks_;
     std::size_t pair_room_ = 0;
     std::vector<Point> host_points_;  ///< of this frame; empty before the first
+    float skin_ = 0;                  ///< room to all sides in any case, a length
     float frames_ = 0;                ///< that a vertex has room for, if it goes on as it did
     int served_ = -1;                 ///< frames that the list has served; -1: there is none
     int pause_ = 0, plain_left_ = 0;  ///< plain frames after the last list, and those to come

@@ -17,9 +17,14 @@ std::vector<PipelineChoice> with_each_rule_off(const std::vector<PipelineChoice>
     for (const PipelineChoice& pipeline : pipelines) {
         all.push_back(pipeline);
         const ColliderChoice& collider = pipeline.collider;
+        ColliderChoice without_any = collider;
+        int rules = 0;
         for (const SkipRuleEntry& entry : skip_rules()) {
             if (!entry.applies_to(collider.name) || (collider.rules_off & entry.rule) != 0)
                 continue;
+            ++rules;
+            without_any.rules_forced &= ~entry.rule;
+            without_any.rules_off |= entry.rule;
             all.push_back(pipeline);
             all.back().collider.rules_forced &= ~entry.rule;
             all.back().collider.rules_off |= entry.rule;
@@ -30,6 +35,8 @@ std::vector<PipelineChoice> with_each_rule_off(const std::vector<PipelineChoice>
                 all.back().collider.rules_forced |= entry.rule;
             }
         }
+        if (rules > 1)
+            all.push_back({pipeline.builder, without_any});
     }
     return all;
 }

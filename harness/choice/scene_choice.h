@@ -21,7 +21,7 @@ struct PipelineChoice {
 };
 
 /// Returns each pipeline and, behind it, one for each rule that may shorten its frames, without only that rule. If some device does
-/// without the rule by default (collide/skips.cpp), another one with the rule forced follows.
+/// without the rule by default (collide/skips.cpp), another one with the rule forced follows. The last has none of the rules.
 std::vector<PipelineChoice> with_each_rule_off(const std::vector<PipelineChoice>& pipelines);
 
 /// Frames [first, end) of a scene, counted after the frames between were inserted.

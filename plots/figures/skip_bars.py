@@ -38,7 +38,7 @@ def draw_scene(panels: list[plt.Axes], scene: list[Saving], rules: list[str], lo
 
 
 def draw(run: results.Run) -> plt.Figure:
-    found = savings.of_scenes(run.frames(EXPERIMENT))
+    found = [one for one in savings.of_scenes(run.frames(EXPERIMENT)) if one.rule != savings.ALL]
     if not found:
         raise results.Refused(f"{run.path}: no cell of {EXPERIMENT} is without a rule")
     rules = sorted({one.rule for one in found}, key=savings.order)

@@ -1,4 +1,4 @@
-"""What each rule that skips work avoided and saved: frames with the rule beside the same frames without it. A rule that the device
+"""What each rule that skips work avoided and saved, and all of them: frames with the rule beside the same frames without it. A rule that the device
 does without by default is forced in the frames with it, where the file has them."""
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from .cells import Cell, grouped
 
 FEW = 1000  # a group's box tests vary from run to run: smaller relative differences, 1 in FEW, are ignored
+ALL = "all"  # the name, in place of a rule's, of the sum: frames with the rules that the device uses beside frames with none
 # What a rule avoids most of, by the name of its amount (Saving.amounts).
 WORK = {"unchanged": "updates", "rigid": "rebuilds", "near": "triangles", "apart": "box tests", "overlap": "box tests",
         "start-level": "box tests", "empty-queue": "launches", "margin": "updates"}
@@ -90,14 +91,20 @@ def of_frames(cells: Iterable[Cell]) -> list[Saving]:
     """Returns a saving of one frame for each right cell without a rule that has a right cell with it beside it."""
     right = [cell for cell in cells if cell.operation == "collide" and cell.verdict == "agrees" and cell.samples]
     there = {(key_of(cell), rules_of(cell, "no_skip"), rules_of(cell, "force_skip")): cell for cell in reversed(right)}
+    fewest: dict[Hashable, frozenset[str]] = {}  # rules that are off in the cell of a frame and pipeline that has most
+    for key, off, _ in there:
+        fewest[key] = min(off, fewest.get(key, off), key=len)
     found = []
     for cell in right:
         key, off, forced = key_of(cell), rules_of(cell, "no_skip"), rules_of(cell, "force_skip")
-        for rule in sorted(off):
+        more = sorted(off - fewest[key])
+        for rule in more if len(more) == 1 else ():
             usual = there.get((key, off - {rule}, forced))
             beside = there.get((key, off - {rule}, forced | {rule}), usual)
             if beside is not None:
                 found.append(Saving(rule, [(beside, cell)], usual is not None and does_less(beside, usual)))
+        if len(more) > 1 and (usual := there.get((key, fewest[key], forced))) is not None:
+            found.append(Saving(ALL, [(usual, cell)], False))
     return found
 
 
@@ -122,7 +129,7 @@ def of_scenes(cells: Iterable[Cell]) -> list[Saving]:
 def extremes(savings: list[Saving]) -> tuple[Saving, Saving] | None:
     """Returns the saving with the largest ratio of times without the rule to with it, and that with the least, among those that
     skip something and are used by default; None if there are none."""
-    used = [one for one in savings if one.skips_something and not one.is_forced]
+    used = [one for one in savings if one.skips_something and not one.is_forced and one.rule != ALL]
     return (max(used, key=times), min(used, key=times)) if used else None
 
 

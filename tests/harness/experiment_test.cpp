@@ -137,7 +137,8 @@ TEST(Experiment, OfSkipsHasEachPipelineWithoutEachRuleThatMayShortenIt)
               (std::vector<std::string>{
                   "leaf -rigid +", "leaf -unchanged, rigid +", "leaf -rigid, near +",
                   "leaf -rigid +near", "leaf -rigid, apart +", "leaf -rigid, overlap +",
-                  "leaf -rigid, margin +", "leaf -rigid +margin", "front -rigid +",
+                  "leaf -rigid, margin +", "leaf -rigid +margin",
+                  "leaf -unchanged, rigid, near, apart, overlap, margin +", "front -rigid +",
                   "front -rigid, empty-queue +", "grid - +", "embree - +", "embree -near +"}));
 }
 
