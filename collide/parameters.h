@@ -63,15 +63,12 @@ inline constexpr Parameter leaf_front_ordered =
 inline constexpr Parameter grid_group_size = group_size_parameter(
     "grid.group_size", "work-items in a group that compares the entries of a cell", "broad", 64);
 inline constexpr Parameter all_pairs_group_size = group_size_parameter(
-    "all-pairs.group_size", "work-items in a group that has a tile of boxes", "broad", 64);
+    "all-pairs.group_size", "work-items in a group that has a tile of boxes", "broad", 128);
 inline constexpr Parameter all_pairs_rows = usually(
-    2, "all-pairs.rows", "broad",
+    1, "all-pairs.rows", "broad",
     "boxes of a tile that a work-item tests against those in local memory", {1, 4}, {1, 2, 4});
 inline constexpr Parameter sort_sweep_group_size = group_size_parameter(
-    "sort-sweep.group_size", "work-items in a group of sort-sweep", "broad", 64);
-inline constexpr Parameter sort_sweep_lanes =
-    usually(8, "sort-sweep.lanes", "broad", "work-items that share the sweep from a box on",
-            {1, 32, true}, {1, 2, 4, 8, 16, 32});
+    "sort-sweep.group_size", "work-items in a group of sort-sweep", "broad", 128);
 inline constexpr Parameter narrow_group_size = group_size_parameter(
     "narrow.group_size", "work-items in a group of the narrow phase", "narrow", 128);
 
@@ -95,7 +92,6 @@ inline constexpr const Parameter* collider_parameters[] = {
     &all_pairs_group_size,
     &all_pairs_rows,
     &sort_sweep_group_size,
-    &sort_sweep_lanes,
     &narrow_group_size,
 };
 

@@ -42,12 +42,15 @@ uint position_bits(const std::vector<FaceRange>& objects)
     return std::clamp(bits - object_bits, 1u, most_position_bits);
 }
 
+/// Returns how many work-items share the sweep from a box on, in objects of `each` boxes. On an H200 8,192 objects of 60 take 189 µs with 2
+/// and 325 with 32; 64 of 5,290 take 1,403 and 381.
+uint lanes_for(std::size_t each) { return each < 512 ? 2 : 32; }
+
 class SortSweep final : public DeviceCollider {
 public:
     SortSweep(Programs& programs, const ColliderOptions& options)
         : DeviceCollider(programs, {"sort-sweep", "Sort and sweep, after [Liu2010]"}, options,
                          sort_sweep_group_size, Wants::no_tree)
-        , lanes_(device().tuned(sort_sweep_lanes))
         , bounds_(programs, options.form)
         , each_group_(std::min<std::size_t>(each_group,
                                             device().cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()))
@@ -66,7 +69,7 @@ private:
     void enqueue(const Input& input, Queue& queue) override;
     uint row_length() const { return triangles_ + row_padding; }
 
-    uint lanes_;
+    uint lanes_ = 1;
     BoundsStage bounds_;
     std::size_t each_group_;
     std::optional<RadixSort> sort_;
@@ -89,6 +92,7 @@ void SortSweep::compile(const Input& input)
     sizes_.clear();
     for (const FaceRange& object : objects)
         sizes_.push_back(object.count);
+    lanes_ = lanes_for(triangles_ / objects.size());
     const uint position = position_bits(objects);
     const uint code_bits = position + ceil_log2(static_cast<uint>(objects.size()));
     words_ = code_words(code_bits);

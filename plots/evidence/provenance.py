@@ -23,13 +23,13 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
           "collapse": ("collide/walks/collapse", "collide/walks/line_up"),
-          "narrow": ("collide/narrow/",), "near": ("collide/near",)}
+          "narrow": ("collide/narrow/",), "near": ("collide/near",), "margin": ("collide/margin",)}
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
 PRINTED = "builders/implicit/build_meeting"  # in a folder of others, and one builder's alone
-MANY = "collide/queues/many_"  # in a folder of others; runs for scenes of 512 objects or more, and no result file has one
+MANY = "collide/queues/many_"  # in a folder of others; runs for scenes of 512 objects or more, which only `skips` and `stress` have
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "builders/implicit/", PRINTED), "oibvh": ("oibvh/", "builders/implicit/"),
             "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
@@ -37,6 +37,8 @@ COLLIDERS = {"leaf": ("collide/walks/leaf", "collide/walks/line_walk", "collide/
              "group": ("collide/walks/group", "collide/walks/eight_below"), "block": ("collide/walks/block",), "bvtt": ("collide/queues/",),
              "front": ("collide/front/",), "front-leaf": ("collide/front/",), "grid": ("collide/grid/",),
              "all-pairs": ("collide/worlds/all_pairs", "collide/worlds/eight"), "sort-sweep": ("collide/worlds/sweep", "collide/worlds/eight")}
+# A rule of SKIPS that no device uses unless it is forced: it is no part of other cells.
+NEVER_USED = re.compile(r"\{skip_\w+, [^{}]*? never, never\},")
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|^\s*#\s*include.*?$", re.DOTALL | re.MULTILINE)
 
 
@@ -99,7 +101,7 @@ def is_kernel(path: str) -> bool:
 
 
 def code_of(text: bytes) -> str:
-    return " ".join(COMMENT.sub(" ", text.decode()).split())
+    return " ".join(NEVER_USED.sub(" ", " ".join(COMMENT.sub(" ", text.decode()).split())).split())
 
 
 @functools.cache

@@ -70,6 +70,8 @@ constexpr Generator catalog[] = {
 };
 
 constexpr CrowdGenerator crowds[] = {
+    {"bodies", make_bodies, "B:T", 96, 24,
+     "B touching balls of T triangles, an object each, of which a tenth moves"},
     {"worlds", make_worlds, "W:B", 96, 24,
      "W worlds of B boxes, an object each: a floor, a robot, and things in piles"},
 };

@@ -78,6 +78,10 @@ Scene make_two_spheres(uint triangles, uint frames);
 /// `worlds` * `bodies` <= 2^28.
 Scene make_worlds(uint worlds, uint bodies, uint frames);
 
+/// `bodies` balls of `each` triangles and radius 1 in a cubic lattice, an object each. Each reaches into its six neighbours. From frame to
+/// frame every tenth slides on, and the others rest. `bodies` * `each` <= 2^28.
+Scene make_bodies(uint bodies, uint each, uint frames);
+
 /// A generator by name: "torus:N", or "cloth-ball:N:F" for moving scenes.
 struct Generator {
     static constexpr uint usual_frames = 16, most_frames = 1000;

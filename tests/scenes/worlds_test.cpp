@@ -89,6 +89,26 @@ TEST(Worlds, MoveSomeBodiesOfTheirFrames)
     EXPECT_NE(hex(scene.content_hash), hex(load_scene("worlds:2:401:4", {}).content_hash));
 }
 
+TEST(Bodies, TouchTheirNeighboursAndATenthMoves)
+{
+    const Scene scene = load_scene("bodies:64:20:4", {});
+    ASSERT_EQ(scene.objects.size(), 64u);
+    ASSERT_EQ(scene.triangle_count(), 64u * 20u);
+    ASSERT_EQ(scene.frames.size(), 4u);
+    const auto whole = [&](std::size_t body) {
+        Aabb box = empty_box();
+        for (const Aabb& face : boxes_of(scene, 0, body))
+            box = merged(box, face);
+        return box;
+    };
+    for (const std::size_t neighbour : {22, 25, 37})  // one step, one row and one layer further
+        EXPECT_TRUE(overlap(whole(21), whole(neighbour)));
+    EXPECT_FALSE(overlap(whole(21), whole(23)));
+    const std::vector<Motion> motions = object_motions(scene, 2, 3);
+    for (std::size_t body = 0; body < 64; ++body)
+        EXPECT_EQ(motions[body] == Motion::unchanged, body % 10 != 0) << body;
+}
+
 // Scenes of published results must not change.
 TEST(Worlds, KeepTheirContent)
 {
