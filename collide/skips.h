@@ -19,6 +19,7 @@ enum SkipRule : unsigned {
     skip_near = 1u << 5,
     skip_empty_queue = 1u << 6,
     skip_margin = 1u << 7,
+    skip_deforming = 1u << 8,
 };
 
 /// From how many triangles of a scene a rule is used, where that does not depend on the scene.

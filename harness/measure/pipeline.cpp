@@ -2,7 +2,6 @@
 #include "harness/measure/pipeline.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "geometry/error.h"
@@ -14,8 +13,8 @@ namespace {
 /// Returns the rules that a choice of updates excludes.
 unsigned rules_without(FrameUpdate update)
 {
-    return update == FrameUpdate::rebuild ? skip_unchanged | skip_rigid
-           : update == FrameUpdate::refit ? skip_unchanged | skip_rigid | skip_near
+    return update == FrameUpdate::rebuild ? skip_unchanged | skip_rigid | skip_deforming
+           : update == FrameUpdate::refit ? skip_unchanged | skip_rigid | skip_deforming | skip_near
                                           : 0;
 }
 
@@ -116,71 +115,6 @@ void Pipeline::take_tree(const Tree& tree, const Input& of_trees)
             "to_device", [&] { tree_ = &uploaded_.copy(tree, of_trees, session_.queue()); });
 }
 
-void Pipeline::begin_frame(std::span<const Motion> motions)
-{
-    // A collider that is not told of the next frame begins it as a first one.
-    const TreeUpdate asked = collider_->keeps_tree() && update_ != FrameUpdate::rebuild
-                                 ? collider_->next_frame()
-                             : update_ == FrameUpdate::refit && has_begun_ ? TreeUpdate::refit
-                                                                           : TreeUpdate::rebuild;
-    has_begun_ = true;
-    if (!is_plain())  // the tree is over boxes with room
-        motions = {};
-    if (builder_ == nullptr)
-        return;
-    if (collider_->keeps_tree() || update_ == FrameUpdate::refit) {
-        updates_ = builder_->plan_update(std::vector(updates_.size(), asked), session_.queue());
-    } else if (entering_) {
-        const bool keeps_all =
-            skips(skip_unchanged) && queries() && !motions.empty() &&
-            std::ranges::count(motions, Motion::unchanged) == std::ssize(motions);
-        updates_.assign(updates_.size(), keeps_all ? TreeUpdate::keep : TreeUpdate::rebuild);
-    } else if (one_tree_ && !motions.empty()) {
-        const Motion whole = motion_of_all(motions);
-        updates_ = planned_updates({&whole, 1});
-    } else {
-        updates_ = planned_updates(motions);
-    }
-}
-
-std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motions)
-{
-    std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
-    for (std::size_t k = 0; k < motions.size(); ++k)
-        if (skips(skip_unchanged) && motions[k] == Motion::unchanged)
-            wanted[k] = TreeUpdate::keep;
-        else if (skips(skip_rigid) && motions[k] <= Motion::rigid && builder_->can_refit())
-            wanted[k] = TreeUpdate::refit;
-    return builder_->plan_update(wanted, session_.queue());
-}
-
-/// Decides whether the rule `near` applies to this frame. Memory is reserved for the triangles that enter, and counting them
-/// takes work of the device. That happens here, outside the timing; a simulation would use the count of the previous frame.
-void Pipeline::choose_entering(const Input& input)
-{
-    if (!near_ || std::count(updates_.begin(), updates_.end(), TreeUpdate::rebuild) == 0)
-        return;
-    Queue& queue = session_.queue();
-    std::vector<uint> counts = near_->find(input, queue);
-    queue.finish();
-    const std::size_t total = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-    if (total > NearTriangles::most_of(input.triangle_count())) {
-        if (entering_) {
-            entering_.reset();
-            reserve_for(input);
-            updates_ = planned_updates({});
-        }
-        return;
-    }
-    updates_.assign(updates_.size(), TreeUpdate::rebuild);
-    const bool has_memory = entering_ && entering_->counts == counts;
-    entering_.emplace();
-    entering_->input = near_->frame(input, counts, entering_->faces, queue);
-    entering_->counts = std::move(counts);
-    if (!has_memory && entering_->has_pairs())
-        reserve_for(entering_->input);
-}
-
 void Pipeline::enqueue(const Input& input)
 {
     Queue& queue = session_.queue();
@@ -238,6 +172,7 @@ std::vector<StageTime> Pipeline::prepare(const Input& input)
         enqueue(input);
         stages = session_.queue().finish();
     } while (!complete());
+    note_tests();
     corner_bytes_ = narrow_ && queries() ? corner_bytes(found_pairs(), input) : 0;
     return stages;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "baselines/radix/uploaded.h"
-#include "collide/margin.h"
+#include "collide/margin/margin.h"
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
 #include "harness/choice/catalog.h"
@@ -89,6 +89,7 @@ private:
     std::vector<Pair> found_pairs() const;
     std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
     void enqueue(const Input& input);
+    void note_tests();
     void enqueue_margin(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();
@@ -105,6 +106,9 @@ private:
     UploadedTree uploaded_;  ///< of a builder whose trees are on the host
     const Tree* tree_ = nullptr;
     std::vector<TreeUpdate> updates_;  ///< planned update of each tree
+    bool has_new_trees_ = true;        ///< whether no deforming object is refitted
+    double tests_of_new_ = 0,
+           last_tests_ = 0;  ///< box tests of the last such frame, and of the last
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;      ///< if the rule `near` may apply

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Frames of a pipeline under the rule `margin` (collide/margin.h).
+// Frames of a pipeline under the rule `margin` (collide/margin/margin.h).
 #include "geometry/error.h"
 #include "harness/measure/pipeline.h"
 

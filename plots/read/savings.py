@@ -9,7 +9,7 @@ FEW = 1000  # a group's box tests vary from run to run: smaller relative differe
 ALL = "all"  # the name, in place of a rule's, of the sum: frames with the rules that the device uses beside frames with none
 # What a rule avoids most of, by the name of its amount (Saving.amounts).
 WORK = {"unchanged": "updates", "rigid": "rebuilds", "near": "triangles", "apart": "box tests", "overlap": "box tests",
-        "start-level": "box tests", "empty-queue": "launches", "margin": "updates"}
+        "start-level": "box tests", "empty-queue": "launches", "deforming": "rebuilds", "margin": "updates"}
 COUNTERS = {"rebuilds": ("rebuilt_objects_count",), "updates": ("rebuilt_objects_count", "refitted_objects_count"),
             "sorts": ("sorts_count",), "tasks": ("tasks_count",), "box tests": ("box_tests_count",)}
 AMOUNTS = ("triangles", "launches", *COUNTERS)

@@ -176,12 +176,13 @@ TEST(NearFrames, AreRefittedAsAWholeOnly)
 TEST(NearRule, IsNotUsedForFewTrianglesOnAGpuUnlessForced)
 {
     constexpr std::size_t few = 1000, many = 1u << 22;
-    EXPECT_EQ(skip_rules_off(0, 0, false, few), skip_near | skip_margin);
-    EXPECT_EQ(skip_rules_off(0, skip_near, false, few), skip_margin);
-    EXPECT_EQ(skip_rules_off(skip_rigid, 0, false, few), skip_near | skip_margin | skip_rigid);
-    EXPECT_EQ(skip_rules_off(0, 0, false, many), skip_margin);
-    EXPECT_EQ(skip_rules_off(0, 0, true, few), skip_margin);
-    EXPECT_EQ(skip_rules_off(0, skip_margin, true, few), 0u);
+    constexpr unsigned never_used = skip_deforming | skip_margin;
+    EXPECT_EQ(skip_rules_off(0, 0, false, few), skip_near | never_used);
+    EXPECT_EQ(skip_rules_off(0, skip_near, false, few), never_used);
+    EXPECT_EQ(skip_rules_off(skip_rigid, 0, false, few), skip_near | never_used | skip_rigid);
+    EXPECT_EQ(skip_rules_off(0, 0, false, many), never_used);
+    EXPECT_EQ(skip_rules_off(0, 0, true, few), never_used);
+    EXPECT_EQ(skip_rules_off(0, never_used, true, few), 0u);
 }
 
 TEST(NearRule, IsOnlyForPairsBetweenObjects)

@@ -133,13 +133,14 @@ TEST(Experiment, OfSkipsHasEachPipelineWithoutEachRuleThatMayShortenIt)
     for (const auto& [builder, choice] : tasks.at(0).pipelines)
         seen.push_back(choice.name + " -" + skip_rules_text(choice.rules_off) + " +" +
                        skip_rules_text(choice.rules_forced));
-    EXPECT_EQ(seen,
-              (std::vector<std::string>{
-                  "leaf -rigid +", "leaf -unchanged, rigid +", "leaf -rigid, near +",
-                  "leaf -rigid +near", "leaf -rigid, apart +", "leaf -rigid, overlap +",
-                  "leaf -rigid, margin +", "leaf -rigid +margin",
-                  "leaf -unchanged, rigid, near, apart, overlap, margin +", "front -rigid +",
-                  "front -rigid, empty-queue +", "grid - +", "embree - +", "embree -near +"}));
+    EXPECT_EQ(
+        seen,
+        (std::vector<std::string>{
+            "leaf -rigid +", "leaf -unchanged, rigid +", "leaf -rigid, near +", "leaf -rigid +near",
+            "leaf -rigid, apart +", "leaf -rigid, overlap +", "leaf -rigid, deforming +",
+            "leaf -rigid +deforming", "leaf -rigid, margin +", "leaf -rigid +margin",
+            "leaf -unchanged, rigid, near, apart, overlap, deforming, margin +", "front -rigid +",
+            "front -rigid, empty-queue +", "grid - +", "embree - +", "embree -near +"}));
 }
 
 TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)

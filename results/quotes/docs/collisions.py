@@ -120,6 +120,19 @@ def cards(doc: Document) -> None:
     doc.says("each takes {} to {} of its time on the H200", *ratios(*([cell.median_ns() for cell in card] for card in zip(*both, strict=True))))
 
 
+def worlds(doc: Document) -> None:
+    """Writes the nanoseconds a world of a frame, by pipeline."""
+    files, scenes = [File(f"{machine}/worlds") for machine in ("h200", "pocl-2-cores")], ("worlds:8192:60", "worlds:1024:5290")
+    def each(file: File) -> dict[tuple[str, str], int]:
+        """Returns nanoseconds by pipeline and scene."""
+        return {(f"`{cell.collider}`" + f" over `{cell.builder}`" * (cell.builder != "none"), cell.scene.partition(",")[0]):
+                round(cell.median_ns() / cell.scene_facts["objects"]) for cell in file.cells}
+
+    found = [each(file) for file in files]
+    doc.table("worlds", "< pipeline | H200: 8,192 of 60 | 1,024 of 5,290 | two cores: 8,192 of 60 | 1,024 of 5,290", (
+        [pipeline, *(f"{those[pipeline, scene]:,}" for those in found for scene in scenes)] for pipeline in dict.fromkeys(key for key, _ in found[0])))
+
+
 def quotes(doc: Document) -> None:
     cards(doc)
     doc.says("{} cells on an H200 and {} on two cores found", *map(agreeing, ("h200", "pocl-2-cores")))
@@ -127,5 +140,5 @@ def quotes(doc: Document) -> None:
     ours, *fronts = ([later_ms(file.frames(scene, asked)) for scene in TABLE2.values()] for asked in (BVTT, *RADIX))
     doc.says("takes {} to {} of the time of the best front over a radix tree", *ratios(ours, map(min, *fronts)))
     doc.says("takes {} to {} times the memory of `bvtt`, and {} to {} times that of `block`", *memory(file, BVTT), *memory(file, BLOCK))
-    for part in (pairs, frames, rebuild):
+    for part in (pairs, frames, worlds, rebuild):
         part(doc)

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "builders/input.h"
 #include "builders/stages/bounds.h"
@@ -57,6 +59,7 @@ public:
     std::vector<Pair> pairs(const Queue& queue) const;
 
 private:
+    bool can_renew(const Input& input, std::span<const Point> before);
     void take_pairs();
     void launch(cl::Kernel& kernel, std::size_t items, std::int64_t moved_bytes, Queue& queue);
 

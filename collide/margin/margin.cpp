@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "collide/margin.h"
+#include "collide/margin/margin.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "builders/device_tree.h"
 #include "collide/counters.h"
 #include "collide/device_lists.h"
 #include "collide/parameters.h"
@@ -15,7 +16,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr auto margin_path = "collide/margin.cl";
+constexpr auto margin_path = "collide/margin/margin.cl";
 constexpr uint margin_group_size = 64, block_pairs = 512;
 
 /// Pairs that a work-item of the group form filters: as many as its group has room for each.
@@ -120,16 +121,24 @@ MarginFrame MarginPairs::begin(const Input& input, Queue& queue)
     else if (served_ > 0)
         pause_ = 0;
     served_ = -1;
-    if (before.empty() || plain_left_-- > 0)
-        return MarginFrame::plain;
+    if (plain_left_ > 0)
+        --plain_left_;
+    else if (can_renew(input, before))
+        return MarginFrame::renewed;
+    return MarginFrame::plain;
+}
+
+/// Decides how much room vertices get, given the points of the frame before. True if a list pays.
+bool MarginPairs::can_renew(const Input& input, std::span<const Point> before)
+{
+    if (before.empty())
+        return false;
     const double side = mean_side(input);
     skin_ = static_cast<float>(skin_a_side * side);
     frames_ = static_cast<float>(
         std::min(most_frames, room_a_side * side / mean_way(before, input.points)));
-    if (!(frames_ >= least_frames))
-        return MarginFrame::plain;
-    plain_left_ = served_ = 0;
-    return MarginFrame::renewed;
+    served_ = frames_ >= least_frames ? 0 : -1;
+    return served_ == 0;
 }
 
 void MarginPairs::launch(cl::Kernel& kernel, std::size_t items, std::int64_t moved_bytes,
