@@ -44,6 +44,9 @@ struct SkipRuleEntry {
 /// All rules, in the order of tables.
 std::span<const SkipRuleEntry> skip_rules();
 
+/// Returns the entry of one rule.
+const SkipRuleEntry& skip_rule(SkipRule rule);
+
 /// Returns the rule of that name, or every rule for "all". Throws BadUsage, with the known names, for an unknown one.
 unsigned skip_rules_called(std::string_view name);
 

@@ -13,8 +13,9 @@ namespace {
 /// Returns the rules that a choice of updates excludes.
 unsigned rules_without(FrameUpdate update)
 {
-    return update == FrameUpdate::rebuild ? skip_unchanged | skip_rigid | skip_deforming
-           : update == FrameUpdate::refit ? skip_unchanged | skip_rigid | skip_deforming | skip_near
+    constexpr unsigned never = skip_unchanged | skip_rigid | skip_deforming | skip_margin;
+    return update == FrameUpdate::rebuild ? never
+           : update == FrameUpdate::refit ? never | skip_near
                                           : 0;
 }
 
@@ -85,10 +86,10 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }
-    const bool has_tree_on_device =
-        builder_ == nullptr || dynamic_cast<const DeviceTree*>(tree_) != nullptr;
-    if (skips(skip_margin) && !input.is_swept() && has_tree_on_device && !collider_->keeps_tree() &&
-        !collider_->is_on_host() && !collider_->finds_contacts()) {
+    // A builder on the host reads the host's points, which have no room; one from outside may.
+    if (skips(skip_margin) && skip_rule(skip_margin).applies_to(collider.name) &&
+        !input.is_swept() && builder_->card().runs == BuilderCard::Runs::on_device &&
+        find_builder(choice_.name).outside == nullptr) {
         margin_.emplace(session.programs(), collider.form);
         margin_->reserve(input);
     }

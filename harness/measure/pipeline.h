@@ -106,9 +106,10 @@ private:
     UploadedTree uploaded_;  ///< of a builder whose trees are on the host
     const Tree* tree_ = nullptr;
     std::vector<TreeUpdate> updates_;  ///< planned update of each tree
-    bool has_new_trees_ = true;        ///< whether no deforming object is refitted
-    double tests_of_new_ = 0,
-           last_tests_ = 0;  ///< box tests of the last such frame, and of the last
+    /// Of each tree, whether the rule `deforming` has refitted it since it was rebuilt.
+    std::vector<bool> is_worn_;
+    double last_tests_ = 0;    ///< box tests of the last frame
+    double tests_of_new_ = 0;  ///< of the last frame without worn trees
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;      ///< if the rule `near` may apply

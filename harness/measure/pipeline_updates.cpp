@@ -2,6 +2,7 @@
 //
 // Which trees of a pipeline are rebuilt, refitted or kept, and which triangles enter them.
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -47,7 +48,7 @@ std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motion
     std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
     const bool may_refit = skips(skip_deforming) && builder_->can_refit() && tests_of_new_ > 0 &&
                            last_tests_ <= most_more_tests * tests_of_new_;
-    has_new_trees_ = true;
+    is_worn_.resize(updates_.size());
     for (std::size_t k = 0; k < motions.size(); ++k)
         if (skips(skip_unchanged) && motions[k] == Motion::unchanged)
             wanted[k] = TreeUpdate::keep;
@@ -55,9 +56,13 @@ std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motion
             wanted[k] = TreeUpdate::refit;
         else if (may_refit) {
             wanted[k] = TreeUpdate::refit;
-            has_new_trees_ = false;
+            is_worn_[k] = true;
         }
-    return builder_->plan_update(wanted, session_.queue());
+    const std::vector<TreeUpdate> planned = builder_->plan_update(wanted, session_.queue());
+    for (std::size_t k = 0; k < planned.size(); ++k)
+        if (planned[k] == TreeUpdate::rebuild)
+            is_worn_[k] = false;
+    return planned;
 }
 
 /// Decides whether the rule `near` applies to this frame. Memory is reserved for the triangles that enter, and counting them
@@ -90,10 +95,10 @@ void Pipeline::choose_entering(const Input& input)
 /// Notes the box tests of a frame, by which the rule `deforming` decides on the next.
 void Pipeline::note_tests()
 {
-    if (!is_plain() || entering_)
+    if (!skips(skip_deforming) || !is_plain() || entering_)
         return;
     last_tests_ = static_cast<double>(collider_->counts(session_.queue()).box_tests.value_or(0));
-    if (has_new_trees_)
+    if (std::ranges::none_of(is_worn_, std::identity()))
         tests_of_new_ = last_tests_;
 }
 

@@ -115,14 +115,21 @@ void expect_same_answers(unsigned seed)
     SCOPED_TRACE("sequence " + std::to_string(seed));
     Sequence one(seed);
     constexpr const char* colliders[] = {"group", "leaf", "block", "bvtt", "grid"};
-    constexpr const char* builders[] = {"oibvh-multi", "apetrei-fused", "oibvh-wide4"};
+    constexpr const char* builders[] = {"oibvh-multi", "apetrei-fused", "oibvh-wide4",
+                                        "sah-binned"};
     ColliderChoice asked;
     asked.name = colliders[one.below(5)];
     asked.among = static_cast<Among>(one.many.objects.size() > 1 ? one.below(3) : 2 * one.below(2));
     asked.keep_adjacent = one.below(2) == 0;
     asked.narrow = "exact";
-    BuilderChoice builder{.name = builders[one.below(asked.name == std::string("bvtt") ? 2 : 3)]};
-    builder.sorted_leaves = one.below(2) == 0;
+    asked.form = one.below(2) == 0 ? KernelForm::groups : KernelForm::chunks;
+    const bool can_be_one_tree =
+        one.many.objects.size() > 1 && asked.name != "grid" && asked.among != Among::within_objects;
+    if (can_be_one_tree && one.below(3) == 0)
+        asked.trees = TreeOver::scene;
+    const bool has_one_tree = one.many.objects.size() == 1 || asked.trees == TreeOver::scene;
+    BuilderChoice builder{.name = builders[one.below(has_one_tree ? 4 : 3)]};
+    builder.sorted_leaves = builder.name != "sah-binned" && one.below(2) == 0;
     Input input = uploaded(one.many);
     std::vector<unsigned> uses = {0, skip_rules_called("all")};
     for (const SkipRuleEntry& rule : skip_rules())

@@ -3,6 +3,9 @@
 // Tests the options `update` and `trees`: what is done to the trees of each frame, and that the pairs are the oracle's.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "collide/oracles/box_pairs.h"
 #include "harness/measure/frames.h"
 #include "harness/measure/pipeline.h"
@@ -215,6 +218,57 @@ TEST(OneTree, IsRefusedWhereItCannotBe)
     ColliderChoice keeps = between;
     keeps.keep_adjacent = true;
     run_frames(scene, multi, keeps);
+}
+
+/// A sheet whose wave grows by `step` of its side in each frame, but shuffles its corners in the last.
+Scene waving_sheet(float step)
+{
+    Scene scene = load_scene("grid:800", {});
+    const std::vector<Point> flat = scene.frames.front();
+    for (int frame = 1; frame < 5; ++frame) {
+        std::vector<Point> points = flat;
+        for (Point& p : points)
+            p.z = step * static_cast<float>(frame) * std::sin(9 * p.x);
+        scene.frames.push_back(points);
+    }
+    std::vector<Point>& last = scene.frames.emplace_back(flat);
+    std::shuffle(last.begin(), last.end(), std::mt19937(1));
+    scene.frames.push_back(last);
+    for (Point& p : scene.frames.back())
+        p.x *= 1.01f;
+    return scene;
+}
+
+TEST(Deforming, IsRefittedWhileQueriesTestHardlyMoreBoxes)
+{
+    const Scene scene = waving_sheet(0.01f);
+    ColliderChoice forced{{}, "leaf"};
+    forced.rules_forced = skip_deforming;
+    const BuilderChoice multi{.name = "oibvh-multi"};
+    const std::vector<Counters> with = run_frames(scene, multi, forced);
+    expect_updates(with[0], 1, 0, 0);
+    for (const std::size_t frame : {1, 2, 3, 4, 5})
+        expect_updates(with[frame], 0, 1, 0);
+    expect_updates(with[6], 1, 0, 0);  // the frame before tested far more
+    EXPECT_GT(with[5].at("box_tests_count"), 1.15 * with[0].at("box_tests_count"));
+    for (const Counters& frame : run_frames(scene, multi, {{}, "leaf"}))
+        expect_updates(frame, 1, 0, 0);
+    forced.update = FrameUpdate::rebuild;
+    for (const Counters& frame : run_frames(scene, multi, forced))
+        expect_updates(frame, 1, 0, 0);
+}
+
+TEST(Margin, IsNotUsedWhereTreesAreToBeRebuiltOrRefittedInEachFrame)
+{
+    const Scene still = waving_sheet(0);
+    for (const FrameUpdate update :
+         {FrameUpdate::automatic, FrameUpdate::rebuild, FrameUpdate::refit}) {
+        ColliderChoice forced{{}, "leaf"};
+        forced.rules_forced = skip_margin;
+        forced.update = update;
+        const std::vector<Counters> frames = run_frames(still, {.name = "oibvh-multi"}, forced);
+        EXPECT_EQ(frames[2].contains("listed_count"), update == FrameUpdate::automatic);
+    }
 }
 
 /// Returns what `auto` chooses for `objects` objects of `triangles` triangles each.
