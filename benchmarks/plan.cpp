@@ -12,7 +12,8 @@ namespace {
 /// Returns the options of `of` that are not the defaults: "/order:hilbert30/leaves:sorted".
 std::string options_text(const CellChoice& choice, Choice::Of of)
 {
-    const Json usual = choices_json({}, of), chosen = choices_json(choice, of);
+    const CellChoice defaults;
+    const Json usual = choices_json(defaults, of), chosen = choices_json(choice, of);
     std::string text;
     for (const auto& [key, value] : chosen.items())
         if (value != usual[key])
@@ -22,7 +23,9 @@ std::string options_text(const CellChoice& choice, Choice::Of of)
 
 std::string name_of(const PlannedCell& cell)
 {
-    const CellChoice choice{.builder = cell.builder, .collider = cell.collider};
+    CellChoice choice;
+    choice.builder = cell.builder;
+    choice.collider = cell.collider;
     std::string text;
     if (cell.builder.name != "none")
         text += '/' + cell.builder.name + options_text(choice, Choice::Of::builder);

@@ -41,7 +41,7 @@ struct ColliderOptions {
     KernelForm form = KernelForm::of_device;
     /// Initial capacity of pair buffers and queues, in entries; 0: estimated. They grow when too small.
     std::size_t capacity = 0;
-    /// Pairs of objects that are not tested, for colliders that filter (harness/choice/catalog.h); others must not be given any.
+    /// Pairs of objects that are not tested, for colliders that filter (harness/choice/catalog.h). No other collider may be given a filter.
     ObjectFilter filter = {};
 
     bool operator==(const ColliderOptions&) const = default;

@@ -25,7 +25,7 @@ struct ObjectFilter {
     /// True if pairs of triangles of both objects are wanted; a == b asks for pairs within an object.
     bool allows(uint a, uint b) const;
 
-    /// Throws BadUsage if groups or masks are not of so many objects, or an excluded one is none of them.
+    /// Throws BadUsage if there are groups or masks but not one for each of `objects` objects, or if an excluded object is none of these.
     void check(std::size_t objects) const;
 
     /// Identifies the question; 0 for an empty filter.
@@ -37,7 +37,7 @@ struct ObjectFilter {
 /// Returns the pairs as ObjectFilter::excluded has them. They may be in any order, with either object first, and more than once.
 std::vector<Pair> excluded_pairs(std::vector<Pair> pairs);
 
-/// A filter of so many objects as the device reads it: a rule for each, and what they exclude, which both objects of a pair list.
+/// A filter as the device reads it: a rule for each object, and the lists of what they exclude. A pair is in the lists of both objects.
 struct FilterTables {
     std::vector<FilterRule> rules;
     std::vector<uint> excluded;

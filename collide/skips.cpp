@@ -52,11 +52,6 @@ bool SkipRuleEntry::applies_to(std::string_view collider) const
 
 std::span<const SkipRuleEntry> skip_rules() { return rules; }
 
-const SkipRuleEntry& skip_rule(SkipRule rule)
-{
-    return *std::ranges::find(rules, rule, &SkipRuleEntry::rule);
-}
-
 unsigned skip_rules_off(unsigned off, unsigned forced, bool on_cpu, std::size_t triangles)
 {
     for (const SkipRuleEntry& entry : rules)

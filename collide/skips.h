@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -45,7 +46,10 @@ struct SkipRuleEntry {
 std::span<const SkipRuleEntry> skip_rules();
 
 /// Returns the entry of one rule.
-const SkipRuleEntry& skip_rule(SkipRule rule);
+inline const SkipRuleEntry& skip_rule(SkipRule rule)
+{
+    return *std::ranges::find(skip_rules(), rule, &SkipRuleEntry::rule);
+}
 
 /// Returns the rule of that name, or every rule for "all". Throws BadUsage, with the known names, for an unknown one.
 unsigned skip_rules_called(std::string_view name);

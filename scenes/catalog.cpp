@@ -6,7 +6,6 @@
 #include <new>
 
 #include "geometry/error.h"
-#include "geometry/host_memory.h"
 #include "geometry/names.h"
 #include "scenes/counts.h"
 #include "scenes/facts.h"
@@ -14,6 +13,7 @@
 #include "scenes/formats/text.h"
 #include "scenes/generate/derived.h"
 #include "scenes/generate/generators.h"
+#include "scenes/generated.h"
 #include "scenes/manifest.h"
 #include "scenes/sequence.h"
 
@@ -21,79 +21,6 @@ namespace bvhbench {
 namespace {
 
 Scene load_any(std::string_view text, const SceneLibrary& library);
-
-/// Throws Unavailable, naming `scene` as the user typed it, if the host has fewer than `bytes` bytes left.
-void require_memory(std::string_view scene, std::uint64_t bytes)
-{
-    require_host_memory("scene " + in_quotes(scene), bytes);
-}
-
-uint triangle_count(std::string_view scene, std::string_view number, uint most)
-{
-    return count_in(scene, number, "triangle count", most);
-}
-
-/// A scene's name, split at its first colon.
-struct Parts {
-    std::string_view head, rest;
-
-    explicit Parts(std::string_view text)
-        : head(text.substr(0, text.find(':')))
-        , rest(text.substr(std::min(head.size() + 1, text.size())))
-    {}
-};
-
-/// Makes the scene of a generator. `rest` is "N", or "N:F" for moving scenes.
-Scene generated(std::string_view text, const Generator& generator, std::string_view rest)
-{
-    const std::size_t colon = generator.moves ? rest.find(':') : rest.npos;
-    const uint count = triangle_count(text, rest.substr(0, colon), generator.most);
-    if (count < generator.least)
-        throw BadUsage("scene " + in_quotes(text) + " has too few triangles: there must be " +
-                       std::to_string(generator.least) + " at least, one for each object");
-    const uint frames = colon == rest.npos ? generator.usual_frames
-                                           : count_in(text, rest.substr(colon + 1),
-                                                      "number of frames", generator.most_frames);
-    const std::uint64_t bytes_each =
-        generator.bytes_a_triangle + std::uint64_t{generator.bytes_a_frame} * frames;
-    require_memory(text, count * bytes_each);
-    Scene scene = generator.make(count, frames);
-    scene.has_meshes = generator.moves;
-    return scene;
-}
-
-/// The counts in the name of a crowd, "W:B" or "W:B:F".
-struct CrowdCounts {
-    uint objects, each, frames;
-};
-
-CrowdCounts crowd_counts(std::string_view text, std::string_view rest)
-{
-    const Parts first(rest), second(first.rest);
-    const auto count = [&](std::string_view number, const char* what) {
-        return count_in(text, number, what, CrowdGenerator::most_triangles);
-    };
-    const CrowdCounts counts = {
-        count(first.head, "number of objects"), count(second.head, "number of triangles an object"),
-        second.head.size() == first.rest.size()
-            ? 1
-            : count_in(text, second.rest, "number of frames", Generator::most_frames)};
-    if (std::uint64_t{counts.objects} * counts.each > CrowdGenerator::most_triangles)
-        throw BadUsage("scene " + in_quotes(text) + " has more than " +
-                       std::to_string(CrowdGenerator::most_triangles) + " triangles");
-    return counts;
-}
-
-Scene generated(std::string_view text, const CrowdGenerator& generator, std::string_view rest)
-{
-    const auto [objects, each, frames] = crowd_counts(text, rest);
-    const std::uint64_t bytes_each =
-        generator.bytes_a_triangle + std::uint64_t{generator.bytes_a_frame} * frames;
-    require_memory(text, std::uint64_t{objects} * each * bytes_each);
-    Scene scene = generator.make(objects, each, frames);
-    scene.has_meshes = true;
-    return scene;
-}
 
 /// A way to derive a scene from another one, such as "refine:SCENE:N".
 struct Derivation {
@@ -121,7 +48,7 @@ struct Derived {
 
 std::optional<Derived> taken_apart(std::string_view text)
 {
-    const Parts parts(text);
+    const NameParts parts(text);
     const auto how = std::ranges::find(derivations, parts.head, &Derivation::name);
     if (how == std::end(derivations))
         return std::nullopt;
@@ -212,12 +139,6 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
                    there_are(text, names_of(listed), "or a path to a mesh file"));
 }
 
-bool is_generated(std::string_view text)
-{
-    const std::string_view name = Parts(text).head;
-    return generator_called(name) != nullptr || crowd_generator_called(name) != nullptr;
-}
-
 bool looks_like_path(std::string_view text)
 {
     std::error_code error;
@@ -246,11 +167,8 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
     }
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
-    const Parts parts(text);
-    if (const Generator* const generator = generator_called(parts.head))
-        return generated(text, *generator, parts.rest);
-    if (const CrowdGenerator* const generator = crowd_generator_called(parts.head))
-        return generated(text, *generator, parts.rest);
+    if (std::optional<Scene> scene = generated(text))
+        return *std::move(scene);
     if (looks_like_path(text))
         return from_path(text, library);
     unknown(text);
@@ -307,15 +225,8 @@ std::size_t triangles_in_name(std::string_view text)
     }
     if (const ManifestEntry* const entry = manifest_entry(text))
         return entry->triangles;
-    const Parts parts(text);
-    if (const Generator* const generator = generator_called(parts.head)) {
-        const std::size_t colon = generator->moves ? parts.rest.find(':') : parts.rest.npos;
-        return triangle_count(text, parts.rest.substr(0, colon), generator->most);
-    }
-    if (crowd_generator_called(parts.head) != nullptr) {
-        const CrowdCounts counts = crowd_counts(text, parts.rest);
-        return std::size_t{counts.objects} * counts.each;
-    }
+    if (const auto count = generated_triangles(text))
+        return *count;
     if (!looks_like_path(text))
         unknown(text);
     return 0;
@@ -333,12 +244,12 @@ std::string scene_name(std::string_view text)
             name += k == 0 ? in_digits(derived->words[k]) : ':' + std::string(derived->words[k]);
         return name;
     }
-    const Parts parts(text);
+    const NameParts parts(text);
     if (manifest_entry(text) != nullptr || !is_generated(text))
         return std::string(text);
     std::string name(parts.head);
     for (std::string_view rest = parts.rest; !rest.empty();) {
-        const Parts next(rest);
+        const NameParts next(rest);
         name += in_digits(next.head);
         rest = next.rest;
     }
@@ -349,7 +260,7 @@ std::optional<ScenePart> load_part(std::string_view text, uint part, uint parts)
 {
     if (taken_apart(text) || manifest_entry(text) != nullptr)
         return std::nullopt;
-    const Parts words(text);
+    const NameParts words(text);
     ScenePart made;
     const auto cut = [&] {
         const auto begin = [&](uint k) { return static_cast<uint>(made.triangles * k / parts); };

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
+#include "geometry/names.h"
 #include "scenes/formats/text.h"
 
 namespace bvhbench {
@@ -34,6 +36,16 @@ uint count_in(std::string_view scene, std::string_view number, const char* what,
         throw BadUsage("scene " + in_quotes(scene) + " ends in " + in_quotes(number) + " where a " +
                        what + " from 1 to " + std::to_string(most) + " goes");
     return static_cast<uint>(*value);
+}
+
+uint triangle_count(std::string_view scene, std::string_view number, uint most)
+{
+    return count_in(scene, number, "triangle count", most);
+}
+
+void require_memory(std::string_view scene, std::uint64_t bytes)
+{
+    require_host_memory("scene " + in_quotes(scene), bytes);
 }
 
 }  // namespace bvhbench

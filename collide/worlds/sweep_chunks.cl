@@ -9,7 +9,7 @@
 
 #include "collide/worlds/eight.clh"
 #include "collide/worlds/report.clh"
-#include "collide/worlds/sweep_code.clh"
+#include "collide/worlds/sweep.clh"
 
 static inline Eight eight_in_rows(global const float* sides, const uint row_length,
                                   const uint place)
@@ -27,11 +27,7 @@ static inline Eight eight_in_rows(global const float* sides, const uint row_leng
 
 /// As `sweep_pairs` in sweep_groups.cl. `starts`: first place of each object, and `count`; with AMONG == 2, else all boxes are one object.
 /// Rows are LANES longer than `count`. `blocks` has SINK_BLOCK pairs per work-item.
-kernel void sweep_pairs(global const Code* codes, global const Code* ends,
-                        global const uint* lined_up, global const float* sides,
-                        const uint row_length, const uint count, global const uint* starts,
-                        global const uint* owners, global const Face* faces, global uint2* pairs,
-                        const uint capacity, volatile global uint* counters, global uint2* blocks)
+kernel void sweep_pairs(SWEEP_PARAMETERS, global uint2* blocks)
 {
     const Chunk chunk = own_chunk(count);
     OPEN_SINK
@@ -39,13 +35,7 @@ kernel void sweep_pairs(global const Code* codes, global const Code* ends,
     for (uint place = chunk.first; place < chunk.end; ++place) {
         const uint limit = AMONG == 2 ? starts[owners[place] + 1u] : count;
         const Code end = ends[place];
-        const ulong row = row_length;
-        const Aabb box = {sides[place],
-                          sides[row + place],
-                          sides[2ul * row + place],
-                          sides[3ul * row + place],
-                          sides[4ul * row + place],
-                          sides[5ul * row + place]};
+        const Aabb box = box_in_rows(sides, row_length, place);
         for (uint other = place + 1u; other < limit && codes[other] <= end; other += LANES) {
             const uint lanes = min(LANES, limit - other);
             tests += lanes;

@@ -6,7 +6,7 @@
 // What is before and after the sort of boxes (sort_sweep.cpp). A code is the number of a box's object, and below it the cell in which the
 // box begins along the object's axis.
 #include "collide/object_order.clh"
-#include "collide/worlds/sweep_code.clh"
+#include "collide/worlds/sweep.clh"
 #include "geometry/split.h"
 
 /// A part of space along an axis, cut into 2^POSITION_BITS cells: about the centres of an object along the longest side of their box. The

@@ -7,28 +7,10 @@
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/worlds/report.clh"
-#include "collide/worlds/sweep_code.clh"
-#include "geometry/aabb.h"
+#include "collide/worlds/sweep.clh"
 
-static inline Aabb box_in_rows(global const float* sides, const uint row_length, const uint place)
-{
-    const ulong row = row_length;
-    const Aabb box = {sides[place],
-                      sides[row + place],
-                      sides[2ul * row + place],
-                      sides[3ul * row + place],
-                      sides[4ul * row + place],
-                      sides[5ul * row + place]};
-    return box;
-}
-
-/// Finds the pairs of boxes by a sweep from each to the last box that begins before it ends; `counters` must be zero. Of the box in each
-/// place of the order: `codes` and `ends`, where it begins and ends; `lined_up`, its triangle; `sides`, six rows. `starts` is not used.
-__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep_pairs(
-    global const Code* codes, global const Code* ends, global const uint* lined_up,
-    global const float* sides, const uint row_length, const uint count, global const uint* starts,
-    global const uint* owners, global const Face* faces, global uint2* pairs, const uint capacity,
-    volatile global uint* counters)
+/// Finds the pairs of boxes by a sweep from each to the last box that begins before it ends; `counters` must be zero. `starts` is not used.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep_pairs(SWEEP_PARAMETERS)
 {
     OPEN_SINK
     local ulong tests[GROUP_SIZE];

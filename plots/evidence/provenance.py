@@ -18,18 +18,19 @@ from ..read.cells import Cell
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SKIPS = "collide/skips.cpp"  # rules, and where each is off
+PRINTED = "builders/implicit/build_meeting"  # in a folder of others, and one builder's alone
+MANY = "collide/queues/many_"  # in a folder of others; runs for scenes of MANY_OBJECTS or more
+MANY_OBJECTS = 512
 # Where the kernels of a stage are: beginnings of paths. A builder makes the stages of OF_BUILDER, a collider `broad`.
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
           "collapse": ("collide/walks/collapse", "collide/walks/line_up"),
-          "narrow": ("collide/narrow/",), "near": ("collide/near",), "margin": ("collide/margin",)}
+          "narrow": ("collide/narrow/",), "near": ("collide/near",), "margin": ("collide/margin",), "objects": (MANY, "collide/object_order")}
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
-PRINTED = "builders/implicit/build_meeting"  # in a folder of others, and one builder's alone
-MANY = "collide/queues/many_"  # in a folder of others; runs for scenes of 512 objects or more, which only `skips` and `stress` have
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "builders/implicit/", PRINTED), "oibvh": ("oibvh/", "builders/implicit/"),
             "perfect": ("baselines/perfect/", "builders/implicit/"),
             "hploc": ("baselines/hploc/",), **{name: ("baselines/radix/",) for name in ("karras", "apetrei", "lbvh-levels")}}
@@ -84,11 +85,17 @@ def programs(document: dict[str, Any]) -> Iterator[tuple[str, bool]]:
     yield from ((part["commit"], part["dirty"]) for part in parts)
 
 
+def is_of_many(cell: Cell) -> bool:
+    """True if pairs of its objects are found in their order (collide/object_order.h), or may be."""
+    return cell.collider in COLLIDERS and cell.scene_facts.get("objects", 0) >= MANY_OBJECTS
+
+
 def works(document: dict[str, Any]) -> set[Work]:
     """Returns what the cells of a result file did. `bvhbench stress` launches all kernels but those of several ranks."""
     cells = [Cell(raw) for raw in document["cells"]]
-    found = {Work(cell.builder, cell.collider or "", tuple(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
-                                                           for stage in cell.samples[0])) for cell in cells if cell.samples}
+    found = {Work(cell.builder, cell.collider or "", (*(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
+                                                        for stage in cell.samples[0]), *(("objects",) if is_of_many(cell) else ())))
+             for cell in cells if cell.samples}
     found |= {Work(cell.builder, cell.collider or "", (*OF_FRAME, *(("exchange",) if cell.cluster["ranks_count"] > 1 else ())))
               for cell in cells if cell.cluster and cell.status == "measured"}
     if document.get("stress"):
@@ -126,7 +133,7 @@ def code_now() -> dict[str, str]:
 def is_changed(place: str, commit: str) -> bool:
     """True if the kernels of a place have another text than at the commit, under whatever names."""
     def is_there(path: str) -> bool:
-        return path.startswith(place) and (place == PRINTED or not path.startswith((PRINTED, MANY)))
+        return path.startswith(place) and (place in (PRINTED, MANY) or not path.startswith((PRINTED, MANY)))
 
     then = sorted(blob_code(name) for path, name in blobs(commit).items() if is_there(path))
     return then != sorted(code for path, code in code_now().items() if is_there(path))

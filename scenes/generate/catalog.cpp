@@ -71,7 +71,7 @@ constexpr Generator catalog[] = {
 
 constexpr CrowdGenerator crowds[] = {
     {"bodies", make_bodies, "B:T", 96, 24,
-     "B touching balls of T triangles, an object each, of which a tenth moves"},
+     "B touching balls of T triangles, each an object; a tenth of them moves"},
     {"worlds", make_worlds, "W:B", 96, 24,
      "W worlds of B boxes, an object each: a floor, a robot, and things in piles"},
 };

@@ -56,15 +56,7 @@ TEST_P(GridCollider, TellsObjectsApart)
     ManyObjects many({});
     for (const uint size : {1u, 70u, 3u, 200u})
         many.add(mesh_of_many_sizes(size));
-    const std::vector<FaceRange> one = {{0, static_cast<uint>(many.mesh.faces.size())}};
-    for (const std::vector<FaceRange>& ranges : {many.objects, one})
-        for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
-            for (const std::size_t capacity : {0u, 1u}) {
-                SCOPED_TRACE(std::to_string(ranges.size()) + " objects, among " +
-                             std::to_string(static_cast<int>(among)));
-                expect_oracles_pairs(*made({.among = among, .capacity = capacity}),
-                                     Standing(many.mesh, nullptr, {}, ranges), true, among);
-            }
+    expect_pairs_of_objects(many, [&](const ColliderOptions& options) { return made(options); });
 }
 
 TEST_P(GridCollider, TestsLittleMoreThanThereIsWhereAllBoxesAreAlike)

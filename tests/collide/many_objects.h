@@ -49,4 +49,20 @@ inline PairList expected_pairs(const ManyObjects& many, Among among, bool keep_a
     return touching_pairs(many.mesh.points, many.mesh.faces, keep_adjacent, many.objects, among);
 }
 
+/// Expects the oracle's pairs of a collider without a tree, with the mesh as these objects and as one, whatever is asked for, also where
+/// its first list is too short. `made` makes the collider for options.
+template <class Made>
+void expect_pairs_of_objects(const ManyObjects& many, const Made& made)
+{
+    const std::vector<FaceRange> one = {{0, static_cast<uint>(many.mesh.faces.size())}};
+    for (const std::vector<FaceRange>& ranges : {many.objects, one})
+        for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
+            for (const std::size_t capacity : {0u, 1u}) {
+                SCOPED_TRACE(std::to_string(ranges.size()) + " objects, among " +
+                             std::to_string(static_cast<int>(among)));
+                expect_oracles_pairs(*made({.among = among, .capacity = capacity}),
+                                     Standing(many.mesh, nullptr, {}, ranges), true, among);
+            }
+}
+
 }  // namespace bvhbench

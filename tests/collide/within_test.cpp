@@ -33,15 +33,7 @@ ManyObjects objects_of(std::initializer_list<uint> sizes)
 TEST_P(WithinObjects, TellsObjectsApart)
 {
     const ManyObjects many = objects_of({1, 70, 3, 1, 200, 8, 128, 5, 129});
-    const std::vector<FaceRange> one = {{0, static_cast<uint>(many.mesh.faces.size())}};
-    for (const std::vector<FaceRange>& ranges : {many.objects, one})
-        for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
-            for (const std::size_t capacity : {0u, 1u}) {
-                SCOPED_TRACE(std::to_string(ranges.size()) + " objects, among " +
-                             std::to_string(static_cast<int>(among)));
-                expect_oracles_pairs(*made({.among = among, .capacity = capacity}),
-                                     Standing(many.mesh, nullptr, {}, ranges), true, among);
-            }
+    expect_pairs_of_objects(many, [&](const ColliderOptions& options) { return made(options); });
 }
 
 TEST_P(WithinObjects, TakesScenes)
