@@ -12,8 +12,7 @@ namespace {
 /// Returns the options of `of` that are not the defaults: "/order:hilbert30/leaves:sorted".
 std::string options_text(const CellChoice& choice, Choice::Of of)
 {
-    const CellChoice defaults;
-    const Json usual = choices_json(defaults, of), chosen = choices_json(choice, of);
+    const Json usual = choices_json({}, of), chosen = choices_json(choice, of);
     std::string text;
     for (const auto& [key, value] : chosen.items())
         if (value != usual[key])
@@ -23,9 +22,7 @@ std::string options_text(const CellChoice& choice, Choice::Of of)
 
 std::string name_of(const PlannedCell& cell)
 {
-    CellChoice choice;
-    choice.builder = cell.builder;
-    choice.collider = cell.collider;
+    const CellChoice choice{.builder = cell.builder, .collider = cell.collider};
     std::string text;
     if (cell.builder.name != "none")
         text += '/' + cell.builder.name + options_text(choice, Choice::Of::builder);

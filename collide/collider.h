@@ -42,7 +42,7 @@ struct ColliderOptions {
     /// Initial capacity of pair buffers and queues, in entries; 0: estimated. They grow when too small.
     std::size_t capacity = 0;
     /// Pairs of objects that are not tested, for colliders that filter (harness/choice/catalog.h). No other collider may be given a filter.
-    ObjectFilter filter = {};
+    ObjectFilter filter = ObjectFilter();
 
     bool operator==(const ColliderOptions&) const = default;
 };

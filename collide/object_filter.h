@@ -15,9 +15,9 @@ namespace bvhbench {
 struct ObjectFilter {
     /// By object: bits of what it is, and of what it is tested against. Two objects are tested if each is in a group of the other's
     /// mask; pairs within an object do not depend on them. Empty: all bits are set.
-    std::vector<uint> groups = {}, masks = {};
+    std::vector<uint> groups, masks;
     /// Pairs of objects that are not tested, smaller one first, ascending, each once. An object with itself: pairs within it.
-    std::vector<Pair> excluded = {};
+    std::vector<Pair> excluded;
 
     /// True if every pair is tested.
     bool is_empty() const { return groups.empty() && masks.empty() && excluded.empty(); }

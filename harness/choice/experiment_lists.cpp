@@ -77,8 +77,7 @@ void read_named(const Json& json, Choice::Of of, const std::string& what, CellCh
 
 PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const Json& collider)
 {
-    CellChoice choice;
-    choice.builder = builder;
+    CellChoice choice{.builder = builder};
     read_named(collider, Choice::Of::collider, "a collider", choice, choice.collider.name);
     read_choices(json, Choice::Of::query, choice);
     check_choice(choice);
