@@ -173,20 +173,22 @@ TEST(Sequences, HaveTheSameAnswersWithRulesAndWithout)
 
 TEST(Margin, FindsWhatComesFromEachSideAfterRest)
 {
-    for (int side = 0; side < 6; ++side) {
-        SCOPED_TRACE(side);
+    for (int k = 0; k < 12; ++k) {
+        SCOPED_TRACE(k);
+        const int side = k % 6;
         const float far = side % 2 == 0 ? 5 : -5;
         ManyObjects many({});
         many.add(crowded_mesh(1));
         many.add(crowded_mesh(1));
         const std::vector<Point> together = many.mesh.points;
-        for (std::size_t k = 3; k < 6; ++k) {
-            Point& p = many.mesh.points[k];
+        for (std::size_t corner = 3; corner < 6; ++corner) {
+            Point& p = many.mesh.points[corner];
             (side < 2 ? p.x : side < 4 ? p.y : p.z) += far;
         }
         Input input = uploaded(many);
         ColliderChoice asked;
         asked.name = "group";
+        asked.form = k < 6 ? KernelForm::groups : KernelForm::chunks;
         Pipeline pipeline(session(), {.name = "oibvh-multi"}, with_rules(asked, skip_margin),
                           input);
         for (int frame = 0; frame < 4; ++frame) {
