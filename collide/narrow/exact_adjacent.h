@@ -16,8 +16,6 @@
 #if HAS_DOUBLES
 SHARED_BEGIN
 
-SHARED_FN bool same_place(Point p, Point q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
-
 /// Orders points along any line: by x, then y, then z.
 SHARED_FN bool comes_before(Point p, Point q)
 {

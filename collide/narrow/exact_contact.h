@@ -123,8 +123,22 @@ SHARED_FN bool meet_in_plane(Corners a, Corners b)
     return !parted && !(both_thin && pass_in_space(a, b));
 }
 
+SHARED_FN bool same_place(Point p, Point q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
+
+/// True if a corner of one is where one of the other is: so equal triangles need no sums, nor neighbours that name no corner alike.
+SHARED_FN bool have_common_place(Corners a, Corners b)
+{
+    bool is_found = false;
+    for (uint k = 0u; k < 3u; ++k)
+        is_found = is_found || same_place(a.at[k], b.at[0]) || same_place(a.at[k], b.at[1]) ||
+                   same_place(a.at[k], b.at[2]);
+    return is_found;
+}
+
 SHARED_FN bool triangles_meet(Corners a, Corners b)
 {
+    if (have_common_place(a, b))
+        return true;
     const Sides of_a = sides_to_plane(b, a);
     if (strictly_beyond(of_a))
         return false;
