@@ -30,7 +30,8 @@ class Saving:
     @property
     def pipeline(self) -> str:
         collider, builder = self.first.collider, self.first.builder
-        return f"{collider} over {builder}" if builder != "none" else str(collider)
+        over = f"{collider} over {builder}" if builder != "none" else str(collider)
+        return over + (" to contacts" if dict(self.first.collider_options).get("narrow", "none") != "none" else "")
 
     @property
     def work(self) -> str:
