@@ -44,6 +44,12 @@ struct ColliderOptions {
     /// Pairs of objects that are not tested, for colliders that filter (harness/choice/catalog.h). No other collider may be given a filter.
     ObjectFilter filter = ObjectFilter();
 
+    /// True to end at the first contact: the answer is one pair of triangles that intersect, any of them, or none if no two do. For
+    /// `leaf`; no other collider may be asked.
+    bool first = false;
+    /// True to decide on the host what floats leave open, as on devices without doubles. For tests of `first`.
+    bool without_doubles = false;
+
     bool operator==(const ColliderOptions&) const = default;
 };
 

@@ -11,6 +11,9 @@
     6u  // chunk form of group and block: number of tasks that work-items have taken; one word
 #define QUEUES_COUNT 6u  // bvtt: queue sizes, one per step
 
+#define UNSURE_COUNT \
+    6u  // leaf up to the first contact: pairs left to exact arithmetic; 0 if there is a contact
+
 #define CHILDREN_COUNT 6u  // block over a tree that it collapses: children of wide nodes
 
 // Counters of front and front-leaf, from QUEUES_COUNT on:

@@ -117,7 +117,8 @@ void DeviceCollider::reserve(const Tree* tree, const Input& input)
             ropes_kernel_ = kernel("collide/walks/ropes.cl", "ropes");
     }
     compile(input);
-    pair_room_ = first_room(std::max<std::size_t>(1024, first_pairs_each * triangles_));
+    pair_room_ =
+        options_.first ? 1 : first_room(std::max<std::size_t>(1024, first_pairs_each * triangles_));
     take_all();
 }
 
@@ -175,7 +176,7 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
 
 std::int64_t DeviceCollider::reads_at_least() const
 {
-    if (!within() || is_filtered())  // if all objects are apart, hardly anything is read
+    if (!within() || is_filtered() || options_.first)  // hardly anything may have to be read
         return 0;
     const std::int64_t leaves = triangles_, nodes = 2 * leaves - std::ssize(tree_->objects);
     return nodes * static_cast<std::int64_t>(tree_->box_format().box_bytes()) +

@@ -46,26 +46,26 @@ constexpr std::size_t swept_groups_per_unit = 32;
 /// long, and those of the slowest kind, pairs a hair's breadth apart, 0.78 times (not kept).
 constexpr std::size_t filter_groups_per_unit = 6, exact_groups_per_unit = 2;
 
-bool has_doubles(const Device& device)
-{
-    return device.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
-}
-
 Corners corners_of(std::span<const Point> points, Face face)
 {
     return {{points[face.a], points[face.b], points[face.c]}};
 }
 
-bool meet(const Input& input, Pair pair, bool keep_adjacent)
+}  // namespace
+
+bool has_doubles(const Device& device)
 {
-    Shared shared = {0, input.faces[pair.a], input.faces[pair.b]};
-    if (keep_adjacent)
-        shared = sharing(shared.a, shared.b);
-    return corners_meet(corners_of(input.points, shared.a), corners_of(input.points, shared.b),
-                        shared.count);
+    return device.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
 }
 
-}  // namespace
+bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, Pair pair,
+                    bool keep_adjacent)
+{
+    Shared shared = {0, faces[pair.a], faces[pair.b]};
+    if (keep_adjacent)
+        shared = sharing(shared.a, shared.b);
+    return corners_meet(corners_of(points, shared.a), corners_of(points, shared.b), shared.count);
+}
 
 std::span<const NarrowMethod> narrow_methods() { return catalog; }
 
@@ -243,7 +243,9 @@ void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
     std::vector<Pair> unsure = first_entries(
         unsure_, std::min<std::uint64_t>(counts[NARROW_EXACT_COUNT / 2], unsure_.size()), queue,
         "the candidates left to the host");
-    std::erase_if(unsure, [&](Pair pair) { return !meet(input, pair, options_.keep_adjacent); });
+    std::erase_if(unsure, [&](Pair pair) {
+        return !triangles_meet(input.points, input.faces, pair, options_.keep_adjacent);
+    });
 
     const std::size_t room = contacts_.size() - std::min<std::uint64_t>(found, contacts_.size());
     const std::size_t written = std::min(room, unsure.size());

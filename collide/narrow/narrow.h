@@ -119,6 +119,13 @@ private:
     Buffer<uint> counters_, next_counters_;
 };
 
+/// True if the device computes in doubles.
+bool has_doubles(const Device& device);
+
+/// True if two triangles intersect, exactly. With `keep_adjacent`, beyond the corners that they share by index.
+bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, Pair pair,
+                    bool keep_adjacent);
+
 /// Repeats the query until it is complete; returns the number of queries. Blocks.
 int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
                   const Buffer<uint>& candidate_counters, Queue& queue);

@@ -6,6 +6,7 @@
 #include "collide/counters.h"
 #include "collide/device_collider.h"
 #include "collide/device_lists.h"
+#include "collide/first_contact.h"
 #include "collide/object_order.h"
 #include "collide/parameters.h"
 #include "collide/walks/collapse.h"
@@ -46,6 +47,16 @@ public:
                              : Wants::tree_with_ropes)
         , by_(by)
     {}
+
+    bool finds_contacts() const override { return options_.first; }
+
+    QueryCounts counts(const Queue& queue) const override
+    {
+        QueryCounts counts = DeviceCollider::counts(queue);
+        if (first_)
+            counts.box_tests.reset();  // their number depends on when a contact is seen
+        return counts;
+    }
 
 private:
     std::string objection(const DeviceTree& tree) const override
@@ -102,7 +113,9 @@ private:
     {
         task_leaves_ = group_size_;
         items_a_task_ = launch_group_ = group_size_;
-        if (by_ == By::leaf) {
+        if (options_.first) {
+            compile_first({{"GROUP_SIZE", group_size_}}, Optimise::on_gpus);
+        } else if (by_ == By::leaf) {
             walk_ = kernel("collide/walks/leaf_groups.cl", "leaf_pairs",
                            {{"GROUP_SIZE", group_size_}}, Optimise::on_gpus);
         } else if (by_ == By::group) {
@@ -159,7 +172,9 @@ private:
         task_leaves_ = device().tuned(walk_task_leaves);
         items_a_task_ = 0;
         launch_group_ = 1;
-        if (by_ == By::leaf) {
+        if (options_.first) {
+            compile_first({}, Optimise::freely);
+        } else if (by_ == By::leaf) {
             block_pairs_ = leaf_block_pairs;
             walk_ = kernel("collide/walks/leaf_chunks.cl", "leaf_pairs",
                            {{"SINK_BLOCK", block_pairs_}});
@@ -171,8 +186,19 @@ private:
         }
     }
 
+    void compile_first(std::vector<Define> defines, Optimise optimise)
+    {
+        first_.emplace(programs(), options_, group_size_,
+                       first_room(std::max<std::size_t>(1024, triangles_)));
+        queue_count_ = 1;  // UNSURE_COUNT
+        defines.push_back(first_->define());
+        walk_ = kernel("collide/first/first_contact.cl", "find_first", defines, optimise);
+    }
+
     void plan(Arena& arena) override
     {
+        if (first_)
+            first_->plan(arena);
         own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
         if (collapse_)
             collapse_->plan(arena);
@@ -195,8 +221,9 @@ private:
     bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queues) override
     {
         const bool has_children = !collapse_ || collapse_->had_room_for(queues.front());
+        const bool has_unsure = !first_ || first_->make_room(queues.front());
         return had_room(between_room_, tasks, tasks / 8, sizeof(QueryTask), device(), "tasks") &&
-               has_children;
+               has_children && has_unsure;
     }
 
     void enqueue_before(const Input&, Queue& queue) override
@@ -225,7 +252,10 @@ private:
         const uint tasks_within = within() ? within_count_ : 0;
         if (tasks_within + between_room == 0)
             return;
-        if (block_pairs_ > 0)
+        if (first_)
+            bind(walk_, input, own_, tasks_within, between_, between_room, input.device_points,
+                 first_->unsure(), first_->room());
+        else if (block_pairs_ > 0)
             bind(walk_, input, own_, tasks_within, between_, between_room, blocks_);
         else if (collapse_)
             bind(walk_, input, own_, tasks_within, between_, between_room, next_counters_,
@@ -239,6 +269,8 @@ private:
             bind(walk_, input, own_, tasks_within, between_, between_room);
         const std::size_t tasks = tasks_within + between_room_;
         launch(walk_, items_a_task_ > 0 ? tasks * items_a_task_ : chunks_, launch_group_, queue);
+        if (first_)
+            first_->decide(input, pairs_, counters_, queue);
     }
 
     static constexpr uint wide_frontier_per_item = 4;
@@ -253,6 +285,7 @@ private:
     uint within_count_ = 0;               ///< how many of them are wanted, the first ones
     std::size_t between_room_ = 0;        ///< capacity of between_, in tasks
     std::optional<Collapse> collapse_;    ///< of `block` over what is not implicit and binary
+    std::optional<FirstContact> first_;   ///< of `leaf` up to the first contact
     Buffer<QueryTask> own_;
     Buffer<QueryTask> between_;
     Buffer<Pair> blocks_;

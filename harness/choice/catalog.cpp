@@ -98,8 +98,11 @@ constexpr ColliderEntry filtering(std::string_view name, std::string_view summar
 
 // To add a collider, add its line here. There is no other registration.
 constexpr ColliderEntry colliders[] = {
-    filtering("leaf", "each leaf against the tree, without a stack: by arithmetic, or by ropes",
-              make_leaf),
+    {.name = "leaf",
+     .summary = "each leaf against the tree, without a stack: by arithmetic, or by ropes",
+     .make = make_leaf,
+     .filters = true,
+     .ends_early = true},
     filtering("bvtt",
               "pairs of nodes a level after the other, in queues between launches: the paper's",
               make_bvtt),
@@ -207,6 +210,14 @@ void check_filter(const ColliderChoice& choice, const ColliderEntry& entry)
         throw BadUsage(
             "'exclude' is applied where the rule 'apart' is, which therefore cannot be switched "
             "off");
+}
+
+/// Throws BadUsage if the collider cannot end at the first contact and is asked to.
+void check_first(const ColliderChoice& choice, const ColliderEntry& entry)
+{
+    if (choice.first && !entry.ends_early)
+        throw BadUsage("the collider " + choice.name +
+                       " finds all pairs; leaf ends at the first contact, as 'first' asks");
 }
 
 }  // namespace
@@ -317,6 +328,7 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
     check_narrow(choice.narrow, choice.keep_adjacent);
     const ColliderEntry& entry = find_collider(choice.name);
     check_filter(choice, entry);
+    check_first(choice, entry);
     if (entry.outside != nullptr)
         return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice);
     if (entry.make == nullptr)

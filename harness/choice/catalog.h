@@ -78,8 +78,9 @@ struct ColliderEntry {
     bool finds_contacts = false;  ///< finds intersecting triangles directly, without box pairs
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
     bool refits = false;  ///< keeps trees or a front from frame to frame, over the same triangles
-    bool is_broken = false;  ///< as that of a builder
-    bool filters = false;    ///< whether it leaves out what ColliderOptions::filter does
+    bool is_broken = false;   ///< as that of a builder
+    bool filters = false;     ///< whether it leaves out what ColliderOptions::filter does
+    bool ends_early = false;  ///< whether it can end at the first contact
 
     /// True if it can be made.
     bool is_there() const { return make != nullptr || outside != nullptr; }

@@ -117,6 +117,10 @@ constexpr Choice table[] = {
          return true;
      },
      value_of<collider, &ColliderChoice::narrow>},
+    {"first", Of::query, "true or false",
+     "end at the first contact: whether any two triangles intersect, exactly, and two that do",
+     set_word<collider, &ColliderChoice::first, truths>,
+     value_of<collider, &ColliderChoice::first>},
     {"no_skip", Of::query, "none, all, or a name of `list skips`",
      "a rule of `list skips` that is not used, or all: work is done that need not be",
      [](CellChoice& choice, const std::string& word) {
@@ -279,6 +283,11 @@ void check_choice(const CellChoice& choice)
         return;
     find_collider(choice.collider.name);
     check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
+    if (const std::string& narrow = choice.collider.narrow;
+        choice.collider.first && narrow != "none" && !find_narrow_method(narrow).is_exact)
+        throw BadUsage(
+            "the first contact is exact: beside 'first' 'narrow' is none or exact, not '" + narrow +
+            "'");
     if (const unsigned both = choice.collider.rules_off & choice.collider.rules_forced; both != 0)
         throw BadUsage("a rule is switched off by 'no_skip' or forced by 'force_skip', not both: " +
                        skip_rules_text(both));

@@ -83,7 +83,8 @@ private:
                         std::to_string(scenes_.size()));
             }
         for (const std::string& name : names_.colliders) {
-            const bool finds_contacts = find_collider(name).finds_contacts;
+            const bool finds_contacts =
+                find_collider(name).finds_contacts || choice_.collider.first;
             if (!pairs_.empty() && finds_contacts)
                 throw BadUsage("collider " + name +
                                " finds contacts and no pairs of boxes: --contacts, not --pairs");
@@ -96,11 +97,11 @@ private:
     void check_containment() const
     {
         if (containment_ &&
-            (choice_.scene.swept || !choice_.scene.exclude.empty() ||
+            (choice_.scene.swept || !choice_.scene.exclude.empty() || choice_.collider.first ||
              choice_.collider.narrow != "exact" || choice_.collider.among == Among::within_objects))
             throw BadUsage(
                 "--containment needs all exact contacts between objects: --narrow exact, without "
-                "--swept, --exclude and --pairs-of within");
+                "--swept, --exclude, --first and --pairs-of within");
     }
 
     /// Records which objects of a frame are inside others in its cells.
@@ -230,6 +231,8 @@ extern const CommandEntry collide_command = {
      {"bvhbench collide --collider bvtt --scene n-body:61000 --frames 0:4 --pairs-of between "
       "--skips",
       "between objects, and what leaving work out saves"},
+     {"bvhbench collide --collider leaf --scene cloth-ball:20000 --adjacent drop --first",
+      "whether anything intersects"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept",
       "what may meet between frames"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept --narrow ccd-1e-4",

@@ -24,7 +24,7 @@ std::string numbers(auto... values) { return (... + (' ' + std::to_string(values
 std::string question_of(const ColliderChoice& collider)
 {
     return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off,
-                   collider.rules_forced, static_cast<int>(collider.update));
+                   collider.rules_forced, static_cast<int>(collider.update), collider.first);
 }
 
 /// Returns a text that is equal for two cells if the stage does the same work in both.

@@ -121,7 +121,9 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
     found = {.scene = found.scene};
     if (pipeline.has_pairs())
         judge_pairs(pipeline, cell, found);
-    if (pipeline.has_contacts())
+    if (cell.collider.first)
+        judge_first(pipeline, cell, found);
+    else if (pipeline.has_contacts())
         judge_contacts(pipeline, cell, found);
     if (frame_.wants_lists)
         found.times = pipeline.impact_times();
@@ -168,6 +170,28 @@ void FrameVerdict::judge_pairs_by_list(const Pipeline& pipeline, const Expected&
     if (!cell.swept.pairs.empty())
         count_errors(pairs.list(), expected.list().list, "", cell);
     found.pairs = pairs.in_file(cell.check.pairs_hash);
+}
+
+/// Judges an answer that is any contact. Its pair is recorded and has no hash, as the next sample may find another.
+void FrameVerdict::judge_first(const Pipeline& pipeline, Cell& cell, Found& found)
+{
+    const PairList answer(pipeline.contacts());
+    found.contacts = renumbered(answer, frame_.file_faces);
+    cell.first_contact.emplace();
+    for (const Pair pair : found.contacts.pairs())
+        cell.first_contact->assign({pair.a, pair.b});
+    if (!has_exact_reference) {
+        cell.check.verdict = Check::Verdict::not_checked;
+        cell.check.detail = "contacts: built without CGAL";
+        return;
+    }
+    cell.check.against = "CGAL";
+    const Expected& expected = oracle_.contacts(cell.collider);
+    if (answer.size() == 0 && expected.facts().set.count > 0)
+        cell.check.find_wrong("no contact was found, and the oracle has " +
+                              std::to_string(expected.facts().set.count));
+    if (answer.size() > 0 && differences(answer, expected.list().list).false_ones > 0)
+        cell.check.find_wrong("the pair that was found is no contact of the oracle's");
 }
 
 void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& found)

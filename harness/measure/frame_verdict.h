@@ -33,6 +33,7 @@ private:
     void judge_pairs(Pipeline& pipeline, Cell& cell, Found& found);
     void judge_pairs_by_list(const Pipeline& pipeline, const Expected& expected, Cell& cell,
                              Found& found) const;
+    void judge_first(const Pipeline& pipeline, Cell& cell, Found& found);
     void judge_contacts(const Pipeline& pipeline, Cell& cell, Found& found);
 
     Session& session_;

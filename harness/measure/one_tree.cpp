@@ -54,6 +54,10 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
     built_.objects = {{0, input.triangle_count()}};
     if (asked.among == Among::all)
         return;
+    if (asked.first)
+        throw BadUsage(
+            "one tree over the scene does not tell its objects apart: with 'first' between objects "
+            "'trees' is object");
     if (!asked.keep_adjacent && share_vertices(input))
         throw BadUsage(
             "objects of this scene share vertices, and one tree over the scene cannot "
@@ -75,7 +79,7 @@ TreeOver trees_over(const ColliderChoice& asked, const Input& input, bool on_cpu
     const ColliderEntry& collider = find_collider(asked.name);
     const bool can_be =
         collider.needs_tree && collider.outside == nullptr && !input.is_swept() &&
-        (asked.among == Among::all || (asked.among == Among::between_objects &&
+        (asked.among == Among::all || (asked.among == Among::between_objects && !asked.first &&
                                        (asked.keep_adjacent || !share_vertices(input))));
     return can_be ? TreeOver::scene : TreeOver::object;
 }

@@ -18,8 +18,8 @@ namespace bvhbench {
 /// get the true faces.
 class OneTree {
 public:
-    /// Copies the faces of the query to the device. Throws BadUsage if the input is swept, if pairs within objects or a filter are wanted,
-    /// or if objects share a vertex and pairs that share one are to be dropped between objects.
+    /// Copies the faces of the query to the device. Throws BadUsage if the input is swept, if pairs within objects, a filter or the first contact
+    /// between objects are wanted, or if objects share a vertex and pairs that share one are to be dropped between objects.
     OneTree(Session& session, const ColliderChoice& asked, const Input& input);
 
     /// What the collider is asked for, in place of what the pipeline is.

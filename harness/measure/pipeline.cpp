@@ -62,7 +62,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     ColliderChoice used = one_tree_ ? one_tree_->question() : collider;
     rules_off_ = used.rules_off =
         skip_rules_off(collider.rules_off | rules_without(collider.update), collider.rules_forced,
-                       on_cpu, input.triangle_count());
+                       on_cpu, input.triangle_count()) |
+        (collider.first ? skip_margin | skip_deforming : 0u);  // they go by all pairs and tests
     collider_ = make_collider(used, session.programs());
     if (input.is_swept() && collider_->finds_contacts())
         throw BadUsage("swept boxes are of the way between two frames, and the collider " +

@@ -56,7 +56,7 @@ std::map<std::string, double> Pipeline::counters() const
         counts = collider_->counts(queue);
     else
         counts.box_tests = counts.tasks = 0;
-    if (entering_ && updates_.front() != TreeUpdate::keep)
+    if (entering_ && updates_.front() != TreeUpdate::keep && counts.box_tests)
         *counts.box_tests += near_->box_tests(queue);
     if (!is_plain()) {
         counts.box_tests =

@@ -30,10 +30,19 @@ def text(cell: Cell, run: results.Run) -> str:
                      f"{duration(first['compile_ns'])}\n")
     if cell.counters:
         parts.append("counters: " + ", ".join(f"{key} {number(value)}" for key, value in sorted(cell.counters.items())) + "\n")
+    if "first_contact" in cell.raw:
+        parts.append(f"{first_contact([cell])}{', triangles {} and {}'.format(*pair) if (pair := cell.raw['first_contact']) else ''}\n")
     parts += [f"no {counter}: {why}\n" for counter, why in sorted(cell.left_out.items())]
     if cell.leaves_by_depth:
         parts.append(f"levels of leaves: {depths(cell.leaves_by_depth)}\n")
     return "".join([*parts, f"verdict: {verdict(cell)}\n"])
+
+
+def first_contact(cells: list[Cell], otherwise: str = "") -> str:
+    """Returns what queries up to the first contact say, of several frames in how many there is one; `otherwise` if there are no such."""
+    answers = [bool(cell.raw["first_contact"]) for cell in cells if "first_contact" in cell.raw]
+    there = "yes" if any(answers) else "no"
+    return "first contact: " + (f"yes in {sum(answers)} of {len(answers)} frames" if len(answers) > 1 else there) if answers else otherwise
 
 
 def number(value: float) -> str:

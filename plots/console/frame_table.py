@@ -24,10 +24,12 @@ def of_pipeline(cells: list[Cell]) -> str:
         wall = [duration(cell.wall_ns)] * has_wall
         times = [*spread.of(cell.times_ns()), *wall, str(len(cell.samples))] if cell.has_times else [""] * (6 + has_wall)
         counts = [whole(cell.counters.get(key)) for key in keys]
+        counts[1] = one_cell.first_contact([cell], counts[1])
         table.row(str(cell.frame), *times, *counts, one_cell.verdict(cell))
     if len(cells) > 1 and all(cell.has_times for cell in cells):
         later = cells[1:]
         counts = [whole(mean(later, key, 1, 0.5)) for key in keys]
+        counts[1] = one_cell.first_contact(later, counts[1])
         table.row("mean of later", duration(sum(cell.median_ns() for cell in later) / len(later)), *[""] * (5 + has_wall), *counts)
     return table.text()
 
@@ -48,6 +50,7 @@ def text(run: results.Run, printed: str = "") -> str:
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
         later = cells[1:] or cells
         counts = [whole(mean(later, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")]
+        counts[1] = one_cell.first_contact(cells, counts[1])
         of_frames = times_of(later)
         copies = [fixed(mean(later, key, 1e-6), 3) for key in ("upload_ns", "read_back_ns")]
         of_first = times_of(cells[:1])[0] if len(cells) > 1 else ""

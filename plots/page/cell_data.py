@@ -52,7 +52,9 @@ def asked(cell: Cell) -> str:
     if options.get("adjacent") == "drop":
         words.append("adjacent dropped")
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")
-    if narrow != "none":
+    if options.get("first") == "True":
+        words.append("first contact")
+    elif narrow != "none":
         words.append(f"contacts ({narrow})")
     return ", ".join(words + caches)
 

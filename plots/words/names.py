@@ -26,7 +26,8 @@ OPTIONS = {"no_skip": ("", "without {}"), "force_skip": ("", "{} forced"),
 # What a collider chose itself where its options left it the choice: in place of them (Cell.used_options).
 USED = {"start": ("", "from {}")}
 # Options that change what is found. Figures show them elsewhere.
-ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}")}
+ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}"),
+           "first": ("False", "first contact")}
 # Where samples find their data, if not in hot caches.
 CACHES = {"cold": "cold caches", "host": "from host to host"}
 # Names that say more than the command line's.

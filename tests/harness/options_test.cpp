@@ -61,6 +61,7 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
     read_choices({{"pairs_of", "between"},
                   {"adjacent", "drop"},
                   {"narrow", "exact"},
+                  {"first", true},
                   {"no_skip", "near"},
                   {"force_skip", "rigid"},
                   {"update", "refit"},
@@ -73,7 +74,8 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                                 .jump = 3,
                                                 .start_level = 4,
                                                 .rules_off = skip_near,
-                                                .group_size = 128},
+                                                .group_size = 128,
+                                                .first = true},
                                                {},
                                                "exact",
                                                skip_rigid,
@@ -82,6 +84,9 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
     choice.builder.name = "karras";
     choice.collider.name = "leaf";
     EXPECT_NO_THROW(check_choice(choice));
+    choice.collider.narrow = "sat-f32";
+    EXPECT_THROW(check_choice(choice), BadUsage) << "the first contact is exact";
+    choice.collider.narrow = "exact";
     choice.collider.rules_forced |= skip_near;
     EXPECT_THROW(check_choice(choice), BadUsage) << "near is left out and forced";
     read_choices({{"frames", "2:5"}, {"between", 3}, {"objects", "components"}, {"swept", true}},
