@@ -102,12 +102,12 @@ Buffer<T> InputTaker::callers(cl_mem memory, std::size_t count, std::size_t item
 
 const bvhbench::Input& InputTaker::take(const Input& input, std::span<const std::uint32_t> sizes)
 {
-    const bool are_boxes =
+    are_boxes_ =
         std::holds_alternative<HostBoxes>(input) || std::holds_alternative<DeviceBoxes>(input);
     // Releases the caller's former buffers, lest a failed call retain them, and copies that this kind of input does not use.
     taken_.device_points = {};
     taken_.device_faces = {};
-    if (!are_boxes) {
+    if (!are_boxes_) {
         box_faces_made_ = 0;
         box_faces_ = {};
     }
@@ -139,7 +139,7 @@ const bvhbench::Input& InputTaker::take(const Input& input, std::span<const std:
     }
     take_objects(sizes);
     if (checks_)
-        check(are_boxes);
+        check();
     return taken_;
 }
 
@@ -196,15 +196,15 @@ void InputTaker::take_objects(std::span<const std::uint32_t> sizes)
     taken_.objects = std::move(objects);
 }
 
-void InputTaker::check(bool are_boxes)
+void InputTaker::check()
 {
     Queue& queue = device_.queue;
     const Buffer<uint> is_bad = room_for<uint>(1, flag_);
     const Buffer<OwnPoint>& points = taken_.device_points;
     const Buffer<OwnFace>& faces = taken_.device_faces;
     const std::size_t count = faces.size();
-    cl::Kernel& kernel = are_boxes ? boxes_kernel_ : triangles_kernel_;
-    if (are_boxes)
+    cl::Kernel& kernel = are_boxes_ ? boxes_kernel_ : triangles_kernel_;
+    if (are_boxes_)
         set_arguments(kernel, points, static_cast<uint>(count), is_bad);
     else
         set_arguments(kernel, points,
@@ -217,15 +217,15 @@ void InputTaker::check(bool are_boxes)
     uint was_bad = 0;
     queue.read(is_bad.cl(), sizeof was_bad, &was_bad);
     if (was_bad != 0)
-        complain(are_boxes);
+        complain();
 }
 
 /// Throws BadUsage about the first invalid triangle or box.
-void InputTaker::complain(bool are_boxes) const
+void InputTaker::complain() const
 {
     if (!may_be_read(taken_.device_points.cl()) || !may_be_read(taken_.device_faces.cl()))
         throw BadUsage(
-            std::string(are_boxes
+            std::string(are_boxes_
                             ? "a box has a corner that is not finite, or ends before it begins"
                             : "a triangle names a point that is not there, or has a corner that is "
                               "not finite") +
@@ -233,7 +233,7 @@ void InputTaker::complain(bool are_boxes) const
     const std::vector<OwnPoint> points = taken_.device_points.download(device_.queue.cl());
     const std::vector<OwnFace> faces = taken_.device_faces.download(device_.queue.cl());
     for (std::size_t k = 0; k < faces.size(); ++k) {
-        const std::string which = (are_boxes ? "box " : "triangle ") + std::to_string(k);
+        const std::string which = (are_boxes_ ? "box " : "triangle ") + std::to_string(k);
         for (const uint index : {faces[k].a, faces[k].b, faces[k].c}) {
             if (index >= points.size())
                 throw BadUsage(which + " names point " + std::to_string(index) +
@@ -242,7 +242,7 @@ void InputTaker::complain(bool are_boxes) const
                 throw BadUsage(which +
                                " has a corner that is not finite: " + text_of(points[index]));
         }
-        if (!are_boxes)
+        if (!are_boxes_)
             continue;
         const OwnPoint low = points[2 * k], high = points[2 * k + 1];
         if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z))

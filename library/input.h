@@ -32,6 +32,7 @@ public:
     const bvhbench::Input& take(const Input& input, std::span<const std::uint32_t> sizes);
 
     const bvhbench::Input& taken() const { return taken_; }
+    bool are_boxes() const { return are_boxes_; }  ///< whether the input was of boxes
 
     /// Returns the bytes of device memory held: copies of host arrays, faces made for boxes, owners and the check's flag.
     std::size_t memory() const;
@@ -55,11 +56,11 @@ private:
 
     void take_boxes(const Buffer<bvhbench::Point>& corners);
     void take_objects(std::span<const std::uint32_t> sizes);
-    void check(bool are_boxes);
-    void complain(bool are_boxes) const;
+    void check();
+    void complain() const;
 
     Device::Impl& device_;
-    bool checks_;
+    bool checks_, are_boxes_ = false;
     cl::Kernel triangles_kernel_, boxes_kernel_, faces_kernel_;
     std::size_t box_faces_made_ = 0;  ///< boxes that `box_faces_` holds faces for; 0 if none
     Room points_, faces_, box_faces_, owners_, flag_;

@@ -24,6 +24,16 @@ bvhbench::Among internal(Among among)
                    std::to_string(static_cast<int>(among)));
 }
 
+ObjectFilter internal(const Filter& filter)
+{
+    std::vector<bvhbench::Pair> excluded;
+    for (const Excluded& pair : filter.excluded)
+        excluded.push_back({pair.a, pair.b});
+    return {.groups = {filter.groups.begin(), filter.groups.end()},
+            .masks = {filter.masks.begin(), filter.masks.end()},
+            .excluded = excluded_pairs(std::move(excluded))};
+}
+
 }  // namespace
 
 /// The defaults are the fastest colliders in the measurements of docs/collisions.md: `group`, with eight boxes at a time, on
@@ -46,43 +56,49 @@ Pairs Tree::Impl::found_by(Collider& from)
             .count = from.counts(device->queue).pairs};
 }
 
-Pairs Tree::Impl::find_pairs(Among among, ObjectFilter filter)
+Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first)
 {
     const ImplicitTree& over = standing("a query");
     const bvhbench::Among wanted = internal(among);
     filter.check(over.objects.size());
+    if (first && taker.are_boxes())
+        throw BadUsage("boxes have overlaps but no contacts: the first contact is of triangles");
     begin();
-    last_query = nullptr;
-    Query& query = queries[static_cast<std::size_t>(among)];
+    if (!first)
+        last_query = nullptr;
+    Query& query = queries[static_cast<std::size_t>(among) + (first ? queries.size() / 2 : 0)];
     if (query.filter != filter)
         query = {};
     query.filter = std::move(filter);
     if (query.collider == nullptr)
-        query.collider = collider.make(
-            device->programs,
-            {.among = wanted, .keep_adjacent = options.adjacent_pairs, .filter = query.filter});
+        query.collider = (first ? make_leaf : collider.make)(
+            device->programs, {.among = wanted,
+                               .keep_adjacent = options.adjacent_pairs,
+                               .filter = query.filter,
+                               .first = first});
     if (!std::exchange(query.is_ready, false))  // set again on success
         query.collider->reserve(&over, taker.taken());
     bvhbench::find_pairs(*query.collider, &over, taker.taken(), device->queue);
     query.is_ready = true;
-    return found_by(*query.collider);
+    return *query.collider;
 }
 
-Pairs Tree::find_pairs(Among among)
-{
-    return as_call(*impl_->device,
-                   [among, &own = *impl_] { return own.find_pairs(among, ObjectFilter{}); });
-}
+Pairs Tree::find_pairs(Among among) { return find_pairs(among, Filter{}); }
 
 Pairs Tree::find_pairs(Among among, const Filter& filter)
 {
     return as_call(*impl_->device, [among, &filter, &own = *impl_] {
-        std::vector<bvhbench::Pair> excluded;
-        for (const Excluded& pair : filter.excluded)
-            excluded.push_back({pair.a, pair.b});
-        return own.find_pairs(among, {.groups = {filter.groups.begin(), filter.groups.end()},
-                                      .masks = {filter.masks.begin(), filter.masks.end()},
-                                      .excluded = excluded_pairs(std::move(excluded))});
+        return own.found_by(own.queried(among, internal(filter), false));
+    });
+}
+
+std::optional<Pair> Tree::first_contact(Among among, const Filter& filter)
+{
+    return as_call(*impl_->device, [among, &filter, &own = *impl_]() -> std::optional<Pair> {
+        const Collider& asked = own.queried(among, internal(filter), true);
+        const std::vector<bvhbench::Pair> found = asked.pairs(own.device->queue);
+        return found.empty() ? std::nullopt
+                             : std::optional<Pair>({found.front().a, found.front().b});
     });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Implementation of Tree: a builder, its tree, and one collider per Among, created by the first query that needs it.
+// Implementation of Tree: a builder, its tree, and one collider per Among and answer, created by the first query that needs it.
 #pragma once
 
 #include <array>
@@ -74,8 +74,8 @@ struct Tree::Impl {
     /// Returns the current tree. Throws BadUsage, whose message begins with `what`, if there is none.
     const ImplicitTree& standing(const char* what) const;
 
-    /// Runs a query of the current tree.
-    Pairs find_pairs(Among among, ObjectFilter filter);
+    /// Runs a query of the current tree, for pairs or up to the first contact.
+    Collider& queried(Among among, ObjectFilter filter, bool first);
 
     /// Returns the pairs of the collider's last query, and remembers the collider for `read_pairs`.
     Pairs found_by(Collider& collider);
@@ -93,7 +93,7 @@ struct Tree::Impl {
         bool is_ready = false;               ///< whether the collider's memory is reserved
         ObjectFilter filter = {};            ///< of the collider
     };
-    std::array<Query, 3> queries;  ///< by Among
+    std::array<Query, 6> queries;  ///< by Among, for pairs, then up to the first contact
     JoinedTrees joined;
     Collider* last_query = nullptr;  ///< holds the last query's pairs; null if there are none
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The library finds the sweep oracle's pairs for all kinds of input, colliders and objects, after build, refit and update.
+#include "collide/narrow/narrow.h"
 #include "tests/library/testing.h"
 
 namespace bvhbench {
@@ -159,6 +160,51 @@ TEST_F(LibraryPairs, LeaveOutWhatAFilterDoes)
             }
         expect_right(tree, caller, objects, collider);  // without a filter again
     }
+}
+
+/// Held against the exact test of the host, which tests/collide/narrow_test.cpp compares with CGAL.
+TEST_F(LibraryPairs, HaveAFirstContactIfTrianglesIntersect)
+{
+    int answers[2] = {};
+    for (const std::uint32_t size : {2u, 7u, 40u, 700u})
+        for (const bool adjacent : {false, true}) {
+            LibraryMesh mesh = soup_mesh(size);
+            for (std::size_t k = 1; k < size; k += 2)
+                mesh.faces[k].a = mesh.faces[k - 1].b;
+            const Mesh own = mesh.mesh();
+            oibvh::Tree tree(device, {.collider = "bvtt", .adjacent_pairs = adjacent});
+            const std::vector<std::uint32_t> sizes = {1, size - 1};
+            tree.build(mesh.on_device(caller), sizes);
+            const PairList pairs = found_pairs(tree, caller);
+            const auto expect_right = [&](std::optional<oibvh::Pair> found, bool of_first) {
+                const PairList right = chosen(pairs, [&](Pair pair) {
+                    return (pair.a == 0 || !of_first) &&
+                           triangles_meet(own.points, own.faces, pair, adjacent);
+                });
+                ++answers[found.has_value()];
+                EXPECT_EQ(found.has_value(), right.size() > 0) << size;
+                if (found) {
+                    EXPECT_TRUE(
+                        std::ranges::binary_search(right.pairs(), Pair{found->a, found->b}));
+                }
+            };
+            const std::vector<oibvh::Excluded> within = {{1, 1}};
+            expect_right(tree.first_contact(), false);
+            expect_right(tree.first_contact(oibvh::Among::all, {.excluded = within}), true);
+            expect_right(tree.first_contact(oibvh::Among::between_objects), true);
+            EXPECT_EQ(pair_list(tree.read_pairs()), pairs) << "as they were";
+            mesh.points.assign(mesh.points.size(), {0, 0, 0});
+            tree.refit(mesh.on_host());  // all in one place
+            EXPECT_EQ(tree.first_contact().has_value(), size > 2) << size;
+        }
+    EXPECT_GT(answers[0], 5);
+    EXPECT_GT(answers[1], 5);
+    oibvh::Tree tree(device);
+    EXPECT_THROW(tree.first_contact(), oibvh::BadInput);
+    const std::vector<oibvh::Box> boxes = soup_mesh(9).boxes();
+    tree.build(oibvh::HostBoxes{boxes});
+    EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.first_contact(); }),
+              "boxes have overlaps but no contacts: the first contact is of triangles");
 }
 
 TEST_F(LibraryPairs, FollowTrianglesThatMove)

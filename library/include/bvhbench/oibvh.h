@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -274,6 +275,12 @@ public:
     /// own tree's input. Copies both trees. Waits. Throws BadInput unless both trees belong to one Device, have one object
     /// each and the same `sorted_leaves`.
     Pairs find_pairs(const Tree& other);
+
+    /// Returns two triangles that intersect, any of them, or nothing if no two do: exactly, for the coordinates as floats, as
+    /// docs/contacts.md says; Options::adjacent_pairs tells whether triangles that share a point index count if they meet beyond
+    /// what they share. Ends at the first contact, by `leaf`, whatever the tree's collider. Waits. Throws as find_pairs, and
+    /// BadInput if the tree is over boxes. The pairs of the last find_pairs can still be read.
+    std::optional<Pair> first_contact(Among among = Among::all, const Filter& filter = {});
 
     /// Copies the pairs of the last query to the host. Waits. Throws BadInput if there was no query since the last build,
     /// refit or update.
