@@ -54,6 +54,15 @@ double mean_way(std::span<const Point> before, std::span<const Point> now)
     return sum / static_cast<double>(std::max<std::size_t>(1, now.size()));
 }
 
+/// Returns how many vertices have not moved.
+std::size_t resting(std::span<const Point> before, std::span<const Point> now)
+{
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < before.size(); ++k)
+        count += before[k].x == now[k].x && before[k].y == now[k].y && before[k].z == now[k].z;
+    return count;
+}
+
 /// Most plain frames after a list that served none.
 constexpr int most_pause = 15;
 
@@ -112,6 +121,7 @@ MarginFrame MarginPairs::begin(const Input& input, Queue& queue)
     queue.finish();
     const std::vector<Point> before =
         std::exchange(host_points_, {input.points.begin(), input.points.end()});
+    mostly_rests_ = 2 * resting(before, input.points) >= input.points.size();
     if (serves) {
         ++served_;
         return MarginFrame::served;

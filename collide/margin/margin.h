@@ -53,6 +53,10 @@ public:
     /// True if the last filter had room for all pairs; otherwise takes more. Blocks.
     bool complete(const Queue& queue);
 
+    /// Points of the frame before, and whether at least half of the vertices still have these.
+    const Buffer<Point>& points_before() const { return before_; }
+    bool mostly_rests() const { return mostly_rests_; }
+
     /// Pairs of the last filter. The last two functions block.
     DevicePairs found() const { return {pairs_, counters_}; }
     std::uint64_t count(const Queue& queue) const;
@@ -76,6 +80,7 @@ private:
     Buffer<Pair> pairs_, blocks_;
     std::size_t pair_room_ = 0;
     std::vector<Point> host_points_;  ///< of this frame; empty before the first
+    bool mostly_rests_ = false;
     float skin_ = 0;                  ///< room to all sides in any case, a length
     float frames_ = 0;                ///< that a vertex has room for, if it goes on as it did
     int served_ = -1;                 ///< frames that the list has served; -1: there is none

@@ -9,6 +9,7 @@
 
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
+#include "collide/collider.h"
 #include "collide/narrow/narrow_methods.h"
 #include "collide/pairs.h"
 #include "device/arena.h"
@@ -84,6 +85,9 @@ public:
     /// Counts and contacts of the last query, which must have been complete. Both functions block.
     NarrowCounts counts(const Queue& queue) const;
     std::vector<Pair> contacts(const Queue& queue) const;
+
+    /// Contacts in device memory, to which others may be appended after a query. `complete` and `counts` then count these too.
+    DevicePairs device_contacts() const { return {contacts_, counters_}; }
 
     /// For each of contacts(), a time from 0 to 1 before which it does not touch, in units of the step. Only of methods for swept
     /// boxes. Blocks.

@@ -93,6 +93,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         find_builder(choice_.name).outside == nullptr) {
         margin_.emplace(session.programs(), collider.form);
         margin_->reserve(input);
+        if (narrow_)
+            standing_.emplace(session.programs(), collider.form);
     }
 }
 
@@ -133,10 +135,8 @@ void Pipeline::enqueue(const Input& input)
         enqueue_query(entering_->input);
         near_->map_back(collider_->device_pairs(queue), queue);
     }
-    if (!narrow_)
-        return;
-    const DevicePairs found = device_pairs();
-    narrow_->query(input, found.pairs, found.counters, queue);
+    if (narrow_)
+        enqueue_narrow(input);
 }
 
 void Pipeline::enqueue_query(const Input& input)
@@ -175,7 +175,10 @@ std::vector<StageTime> Pipeline::prepare(const Input& input)
         stages = session_.queue().finish();
     } while (!complete());
     note_tests();
-    corner_bytes_ = narrow_ && queries() ? corner_bytes(found_pairs(), input) : 0;
+    has_all_contacts_ = narrow_ && queries();
+    const std::vector<Pair> tested = has_all_contacts_ ? tested_pairs() : std::vector<Pair>();
+    tested_ = tested.size();
+    corner_bytes_ = corner_bytes(tested, input);
     return stages;
 }
 
@@ -195,7 +198,7 @@ void Pipeline::declare_found(std::vector<StageTime>& stages) const
     const std::uint64_t contacts = narrow_->counts(queue).contacts;
     const auto times =
         static_cast<std::int64_t>(narrow_->is_swept() ? contacts * sizeof(float) : 0);
-    add_moved_bytes(stages, "narrow", pairs + bytes(contacts) + times + corner_bytes_);
+    add_moved_bytes(stages, "narrow", bytes(tested_) + bytes(contacts) + times + corner_bytes_);
 }
 
 std::vector<StageTime> Pipeline::once(const Input& input)

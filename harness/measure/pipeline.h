@@ -12,6 +12,7 @@
 #include "collide/margin/margin.h"
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
+#include "collide/standing/standing.h"
 #include "harness/choice/catalog.h"
 #include "harness/measure/one_tree.h"
 #include "harness/session/session.h"
@@ -91,6 +92,8 @@ private:
     void enqueue(const Input& input);
     void note_tests();
     void enqueue_margin(const Input& input);
+    void enqueue_narrow(const Input& input);
+    std::vector<Pair> tested_pairs() const;
     void enqueue_query(const Input& input);
     bool complete();
     void declare_found(std::vector<StageTime>& stages) const;
@@ -112,12 +115,15 @@ private:
     double tests_of_new_ = 0;  ///< of the last frame without worn trees
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
-    std::optional<NearTriangles> near_;      ///< if the rule `near` may apply
-    std::optional<Entering> entering_;       ///< if the rule applies; else all triangles enter
-    std::optional<MarginPairs> margin_;      ///< if the rule `margin` may apply
-    MarginFrame does_ = MarginFrame::plain;  ///< what this frame does under that rule
-    std::size_t listed_ = 0;                 ///< pairs on its list
-    std::int64_t corner_bytes_ = 0;  ///< bytes that the narrow phase reads for the prepared pairs
+    std::optional<NearTriangles> near_;         ///< if the rule `near` may apply
+    std::optional<Entering> entering_;          ///< if the rule applies; else all triangles enter
+    std::optional<MarginPairs> margin_;         ///< if the rule `margin` may apply
+    std::optional<StandingContacts> standing_;  ///< if both margin_ and narrow_ are there
+    MarginFrame does_ = MarginFrame::plain;     ///< what this frame does under that rule
+    std::size_t listed_ = 0;                    ///< pairs on its list
+    bool has_all_contacts_ = false;  ///< whether narrow_ has those of the last prepared frame
+    std::uint64_t tested_ = 0;       ///< pairs that the narrow phase tests in the prepared frame
+    std::int64_t corner_bytes_ = 0;  ///< bytes that the narrow phase reads for these pairs
 };
 
 }  // namespace bvhbench

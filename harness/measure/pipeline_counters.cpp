@@ -98,11 +98,14 @@ std::map<std::string, double> Pipeline::counters() const
         memory += near_->reserved().total();
     }
     if (margin_) {
-        put("margin_bytes", margin_->bytes());
-        memory += margin_->bytes();
+        const std::size_t bytes = margin_->bytes() + (standing_ ? standing_->bytes() : 0);
+        put("margin_bytes", bytes);
+        memory += bytes;
     }
     if (narrow_) {
         const NarrowCounts narrow = queries() ? narrow_->counts(queue) : NarrowCounts{};
+        if (!is_plain())
+            put("standing_count", pair_count() - tested_);
         put("contacts_count", narrow.contacts);
         put("narrow_float_count", narrow.by_floats);
         put("narrow_double_count", narrow.by_doubles);

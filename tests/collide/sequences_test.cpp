@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Random sequences of frames have the same pairs and contacts with all rules of skips.h, with each alone, and with none.
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 
+#include "collide/oracles/exact_reference.h"
 #include "harness/measure/pipeline.h"
 #include "tests/all_cases.h"
 #include "tests/collide/many_objects.h"
@@ -199,6 +202,135 @@ TEST(Margin, FindsWhatComesFromEachSideAfterRest)
             EXPECT_EQ(pipeline.pairs().size(), frame < 3 ? 0u : 1u);
             EXPECT_EQ(pipeline.counters().contains("listed_count"), frame == 1 || frame == 2);
         }
+    }
+}
+
+/// A pipeline under the rule `margin` to contacts of all pairs.
+class ToContacts {
+public:
+    ToContacts(const ManyObjects& many, KernelForm form) : input_(uploaded(many))
+    {
+        ColliderChoice asked;
+        asked.name = "group";
+        asked.form = form;
+        asked.narrow = "exact";
+        pipeline_.emplace(session(), BuilderChoice{.name = "oibvh-multi"},
+                          with_rules(asked, skip_margin), input_);
+    }
+
+    /// Expects the answers of oracles in a frame with these points, each time that it is sampled. Returns its counters.
+    std::map<std::string, double> frame(std::span<const Point> points)
+    {
+        input_.points = points;
+        input_.device_points.upload(session().queue().cl(), points);
+        const PairList pairs =
+            touching_pairs(points, input_.faces, true, input_.objects, Among::all);
+        const PairList contacts = intersecting_pairs(points, input_.faces, pairs.pairs(), true);
+        pipeline_->begin_frame({});
+        pipeline_->prepare(input_);
+        for (int sample = 0; sample < (takes_few_cases() ? 1 : 3); ++sample) {
+            EXPECT_EQ(PairList(pipeline_->pairs()), pairs);
+            EXPECT_EQ(PairList(pipeline_->contacts()), contacts);
+            EXPECT_EQ(pipeline_->contacts().size(), contacts.size());
+            pipeline_->once(input_);
+        }
+        std::map<std::string, double> counters = pipeline_->counters();
+        const double spared = counters["standing_count"];
+        EXPECT_TRUE(spared == 0 || spared == static_cast<double>(standing_of(pairs)));
+        last_.assign(points.begin(), points.end());
+        return counters;
+    }
+
+private:
+    /// Returns how many pairs are of two triangles with the bits of the last frame.
+    std::size_t standing_of(const PairList& pairs) const
+    {
+        if (last_.empty())
+            return 0;
+        const auto rests = [&](uint triangle) {
+            const Face face = input_.faces[triangle];
+            return std::ranges::all_of(std::array{face.a, face.b, face.c}, [&](uint k) {
+                return std::memcmp(&last_[k], &input_.points[k], sizeof(Point)) == 0;
+            });
+        };
+        return chosen(pairs, [&](Pair pair) { return rests(pair.a) && rests(pair.b); }).size();
+    }
+
+    Input input_;
+    std::optional<Pipeline> pipeline_;
+    std::vector<Point> last_;
+};
+
+/// Returns objects of equal triangles, whose boxes overlap in space if the planes have a slope.
+ManyObjects sheets(uint objects, uint triangles, float slope)
+{
+    Mesh part;
+    for (uint k = 0; k < triangles; ++k) {
+        part.points.insert(part.points.end(), {{-1, -1, 0}, {1, -1, 0}, {0, 1, slope}});
+        part.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    ManyObjects many({});
+    for (uint k = 0; k < objects; ++k)
+        many.add(part);
+    return many;
+}
+
+/// In each frame an object, or one triangle or vertex of it, may move between three planes; in some a vertex leaves its room.
+void expect_contacts_stand(unsigned seed, std::map<std::string, double>& sums)
+{
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    const auto below = [&](unsigned count) { return static_cast<unsigned>(random() % count); };
+    ManyObjects many = sheets(4, 8, seed % 4 < 2 ? 0 : 1);
+    many.mesh.faces.back() = many.mesh.faces[8];  // a triangle of two objects
+    std::vector<Point> points = many.mesh.points;
+    ToContacts pipeline(many, seed % 2 == 0 ? KernelForm::groups : KernelForm::chunks);
+    for (int frame = 0; frame < 14; ++frame) {
+        for (uint object = 0; object < 4; ++object) {
+            const unsigned part[] = {24, 3, 1, 0, 0, 0}, vertices = part[below(6)];
+            const unsigned first =
+                vertices == 24 ? 0 : vertices * below(24 / std::max(1u, vertices));
+            const float z = 0.01f * static_cast<float>(below(3));
+            for (uint k = 24 * object + first; k < 24 * object + first + vertices; ++k)
+                points[k].z = many.mesh.points[k].z + z;
+        }
+        const std::vector<Point> stay = points;
+        if (frame % 6 == 5)
+            points[below(96)].x += 100;
+        for (const auto& [name, value] : pipeline.frame(points))
+            sums[name] += value;
+        points = stay;
+    }
+}
+
+TEST(Margin, HasContactsThatStandAndThoseOfWhatMoves)
+{
+    if (!has_exact_reference)
+        GTEST_SKIP() << "no exact reference";
+    std::map<std::string, double> sums;
+    const unsigned count = takes_all_cases() ? 500 : takes_few_cases() ? 2 : 40;
+    for (unsigned seed = 0; seed < count && !testing::Test::HasFailure(); ++seed)
+        expect_contacts_stand(seed, sums);
+    EXPECT_GT(sums["standing_count"], sums["pairs_count"] / 8);
+}
+
+TEST(Margin, HasContactsThatStandIfListsAreTooShort)
+{
+    if (!has_exact_reference)
+        GTEST_SKIP() << "no exact reference";
+    for (int variant = 0; variant < 4; ++variant) {
+        SCOPED_TRACE(variant);
+        const float slope =
+            variant < 2 ? 0 : 1;  // of planes: only then do boxes overlap in each frame
+        ManyObjects many = sheets(4, 16, slope);
+        ToContacts pipeline(many, variant % 2 == 0 ? KernelForm::groups : KernelForm::chunks);
+        double standing = 0;
+        for (const float z : {variant < 2 ? 0.0f : 0.03f, 0.03f, 0.03f, 0.03f, 0.0f, 0.0f, 0.03f}) {
+            for (std::size_t k = 0; k < 96; ++k)  // two of the objects
+                many.mesh.points[k].z = (k < 48 ? z : -z) + (k % 3 == 2 ? slope : 0);
+            standing += pipeline.frame(many.mesh.points)["standing_count"];
+        }
+        EXPECT_GT(standing, 0);
     }
 }
 
