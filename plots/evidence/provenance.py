@@ -26,7 +26,7 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
           "gather": ("builders/stages/gather",), "ropes": ("collide/walks/ropes",),
           "collapse": ("collide/walks/collapse", "collide/walks/line_up"),
-          "narrow": ("collide/narrow/",), "near": ("collide/near",), "margin": ("collide/margin",), "objects": (MANY, "collide/object_order")}
+          "narrow": ("collide/narrow/",), "near": ("collide/near",), "margin": ("collide/margin", "collide/standing"), "objects": (MANY, "collide/object_order")}
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
