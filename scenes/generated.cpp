@@ -6,6 +6,7 @@
 #include "geometry/error.h"
 #include "geometry/names.h"
 #include "scenes/counts.h"
+#include "scenes/formats/text.h"
 #include "scenes/generate/generators.h"
 
 namespace bvhbench {
