@@ -15,6 +15,9 @@ constexpr const char* pairs_oracle = has_exact_reference ? "CGAL boxes" : "brute
 /// host memory is checked before it is taken. Throws Unavailable if it is too small.
 PairList overlapping_pairs(std::span<const Aabb> boxes, const WantedPairs& wanted = {});
 
+/// Pads each box by half of `distance`, and a little more, to each side: those of triangles within the distance then overlap.
+void pad_boxes(std::span<Aabb> boxes, double distance);
+
 /// As overlapping_pairs, for pairs of triangles that `among` and `filter` accept; without `keep_adjacent`, only without a common vertex.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},

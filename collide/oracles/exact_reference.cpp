@@ -7,8 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 #include <variant>
 
 #include "geometry/cores.h"
@@ -154,10 +158,68 @@ bool contact(std::span<const Point> points, Face a, Face b, bool keep_adjacent)
     return far_edge_meets(points, a, shared[0], b) || far_edge_meets(points, b, shared[0], a);
 }
 
-}  // namespace
+/// CGAL requires that segments have length.
+using Edge = std::variant<Constructions::Segment_3, Constructions::Point_3>;
 
-PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            std::span<const Pair> candidates, bool keep_adjacent, Checked* checked)
+Edge edge_of(const Corners3<Constructions>& at, std::size_t k)
+{
+    const auto &p = at[k], &q = at[(k + 1) % 3];
+    return p == q ? Edge(p) : Edge(Constructions::Segment_3(p, q));
+}
+
+/// True if a corner of `a` is as near to the face `b` as the root of `most`.
+bool corner_near(const Corners3<Constructions>& a, const Corners3<Constructions>& b,
+                 const Constructions::FT& most)
+{
+    if (CGAL::collinear(b[0], b[1], b[2]))
+        return false;  // its edges are all of it
+    const Constructions::Triangle_3 face(b[0], b[1], b[2]);
+    return std::ranges::any_of(
+        a, [&](const auto& p) { return CGAL::squared_distance(p, face) <= most; });
+}
+
+/// Returns how far apart the boxes of two triangles are, and their nearest corners, in doubles.
+std::pair<double, double> rough_distances(const Corners3<Predicates>& a,
+                                          const Corners3<Predicates>& b)
+{
+    double corners = std::numeric_limits<double>::infinity();
+    for (const auto& p : a)
+        for (const auto& q : b)
+            corners = std::min(corners, CGAL::squared_distance(p, q));
+    const CGAL::Bbox_3 box_a = CGAL::bbox_3(a.begin(), a.end()),
+                       box_b = CGAL::bbox_3(b.begin(), b.end());
+    double boxes = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double gap =
+            std::max({0.0, box_a.min(axis) - box_b.max(axis), box_b.min(axis) - box_a.max(axis)});
+        boxes += gap * gap;
+    }
+    return {std::sqrt(boxes), std::sqrt(corners)};
+}
+
+bool are_near(std::span<const Point> points, Face a, Face b, double distance)
+{
+    constexpr double clearly = 1e-6;  // doubles err by less: no square here underflows that matters
+    const Corners3<Predicates> rough_a = corners<Predicates>(points, a);
+    const Corners3<Predicates> rough_b = corners<Predicates>(points, b);
+    const auto [boxes, nearest] = rough_distances(rough_a, rough_b);
+    if (boxes > distance * (1 + clearly) || nearest < distance * (1 - clearly))
+        return nearest < distance * (1 - clearly);
+    if (meet(shape<Predicates>(rough_a), shape<Predicates>(rough_b)))
+        return true;
+    const auto at_a = corners<Constructions>(points, a), at_b = corners<Constructions>(points, b);
+    const Constructions::FT most = Constructions::FT(distance) * Constructions::FT(distance);
+    for (std::size_t k = 0; k < 9; ++k)
+        if (std::visit(
+                [&](const auto& e, const auto& f) { return CGAL::squared_distance(e, f) <= most; },
+                edge_of(at_a, k / 3), edge_of(at_b, k % 3)))
+            return true;
+    return corner_near(at_a, at_b, most) || corner_near(at_b, at_a, most);
+}
+
+/// Returns the candidates that `wanted` accepts, in parts on all cores.
+PairList chosen_of(std::span<const Pair> candidates, Checked* checked,
+                   const std::function<bool(Pair)>& wanted)
 {
     require_host_memory("checking the contacts", candidates.size_bytes());
     std::vector<std::vector<Pair>> parts((candidates.size() + part_size - 1) / part_size);
@@ -165,7 +227,7 @@ PairList intersecting_pairs(std::span<const Point> points, std::span<const Face>
         const std::size_t first = k * part_size;
         const auto part = candidates.subspan(first, std::min(part_size, candidates.size() - first));
         for (const Pair pair : part)
-            if (contact(points, faces[pair.a], faces[pair.b], keep_adjacent))
+            if (wanted(pair))
                 parts[k].push_back(pair);
         if (checked != nullptr)
             checked->all += part.size();
@@ -174,6 +236,26 @@ PairList intersecting_pairs(std::span<const Point> points, std::span<const Face>
     for (const std::vector<Pair>& part : parts)
         found.insert(found.end(), part.begin(), part.end());
     return PairList(std::move(found));
+}
+
+}  // namespace
+
+PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
+                            std::span<const Pair> candidates, bool keep_adjacent, Checked* checked)
+{
+    return chosen_of(candidates, checked, [&](Pair pair) {
+        return contact(points, faces[pair.a], faces[pair.b], keep_adjacent);
+    });
+}
+
+PairList pairs_within(std::span<const Point> points, std::span<const Face> faces,
+                      std::span<const Pair> candidates, bool keep_adjacent, double distance,
+                      Checked* checked)
+{
+    return chosen_of(candidates, checked, [&](Pair pair) {
+        const Face a = faces[pair.a], b = faces[pair.b];
+        return share_a_vertex(a, b) ? keep_adjacent : are_near(points, a, b, distance);
+    });
 }
 
 }  // namespace bvhbench

@@ -25,4 +25,10 @@ PairList intersecting_pairs(std::span<const Point> points, std::span<const Face>
                             std::span<const Pair> candidates, bool keep_adjacent,
                             Checked* checked = nullptr);
 
+/// Returns the candidates whose triangles are at most `distance` apart, as defined in collide/within/within.h, by CGAL's exact
+/// predicates and numbers; otherwise as above.
+PairList pairs_within(std::span<const Point> points, std::span<const Face> faces,
+                      std::span<const Pair> candidates, bool keep_adjacent, double distance,
+                      Checked* checked = nullptr);
+
 }  // namespace bvhbench

@@ -11,6 +11,12 @@ PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, std::
     throw Unavailable("this build has no CGAL to tell which triangles intersect");
 }
 
+PairList pairs_within(std::span<const Point>, std::span<const Face>, std::span<const Pair>, bool,
+                      double, Checked*)
+{
+    throw Unavailable("this build has no CGAL to tell how far apart triangles are");
+}
+
 std::vector<Impact> touching_on_the_way(std::span<const Point>, std::span<const Point>,
                                         std::span<const Face>, std::span<const Pair>, Checked*)
 {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// Pairs of triangles within a distance of each other: boxes with half of it to each side, a collider's pairs of these, and a narrow phase.
+//
+//     pad       room around each vertex (pad.cl)     ->  any builder and collider, as over swept boxes
+//     narrow    pairs of these boxes, in doubles     ->  pairs within the distance, and unsure ones (within.cl, distance_filter.h)
+//     exact     unsure pairs, in integers, on host   ->  the others within the distance (exact_distance.h)
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "builders/input.h"
+#include "builders/stages/kernel_form.h"
+#include "collide/collider.h"
+
+namespace bvhbench {
+
+struct WithinOptions {
+    /// In the unit of the points. Not negative, and finite.
+    double distance = 0;
+    /// True to report pairs that share a vertex index, whose distance is 0; false to leave them out.
+    bool keep_adjacent = false;
+    KernelForm form = KernelForm::of_device;
+    /// Initial capacity of the lists of pairs, in pairs; 0: estimated. They grow when too small.
+    std::size_t capacity = 0;
+    /// True to decide on the host, as on devices without doubles. For tests.
+    bool without_doubles = false;
+};
+
+/// Results of a query. Pairs that share an index are decided by that.
+struct WithinCounts {
+    std::uint64_t within = 0;
+    std::uint64_t exactly = 0;  ///< candidates left to exact arithmetic
+};
+
+/// Finds the candidates whose triangles are at most a distance apart, exactly for the coordinates as stored and for the distance, a double.
+/// Triangles are closed sets, and one without area is the segment or point that it degenerates to: two that touch or intersect have
+/// distance 0. No pair is dropped silently: a query is repeated until it is `complete`.
+class WithinPhase {
+public:
+    /// Throws BadUsage for a distance that is negative or not finite.
+    WithinPhase(Programs& programs, const WithinOptions& options);
+
+    /// Reserves memory for frames like `input`: same faces, any points. Never timed. Throws Unavailable.
+    void reserve(const Input& input);
+
+    /// Memory reserved at present.
+    Footprint reserved() const;
+
+    /// Gives each vertex its room, in the stage `pad`. Returns the input for builders and colliders on the device: swept, over the ends of
+    /// the rooms; its host points are not those. Boxes of triangles within the distance overlap. Does not block.
+    Input padded(const Input& input, Queue& queue);
+
+    /// Enqueues the stages `narrow` and `exact` over pairs of padded boxes, in any order. Candidates beyond their list are not tested, so
+    /// complete the broad phase first. Blocks.
+    void query(const Input& input, const DevicePairs& candidates, Queue& queue);
+
+    /// True if every list of the last query was large enough; otherwise enlarges them. Blocks.
+    bool complete(const Queue& queue);
+
+    /// Counts and pairs of the last query, which must have been complete. Both functions block.
+    WithinCounts counts(const Queue& queue) const;
+    std::vector<Pair> pairs(const Queue& queue) const;
+
+private:
+    void take_lists();
+    void decide_on_host(const Input& input, const DevicePairs& candidates, const Queue& queue);
+
+    Programs& programs_;
+    WithinOptions options_;
+    KernelForm form_;
+    bool has_doubles_;
+    float reach_;        ///< of padding, to each side
+    double low_, high_;  ///< around the square of the distance
+    cl::Kernel pad_, decide_;
+    std::size_t room_ = 0, unsure_room_ = 0;
+    std::optional<Arena> arena_, lists_;
+    Buffer<Point> low_ends_, high_ends_;
+    Buffer<Pair> pairs_, unsure_;
+    Buffer<uint> counters_;
+};
+
+/// True if two triangles are within the distance, by the host's arithmetic alone.
+bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair pair,
+                const WithinOptions& options);
+
+}  // namespace bvhbench
