@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -110,6 +111,10 @@ struct ColliderChoice : ColliderOptions {
     unsigned rules_forced = 0;    ///< rules used although the device does without them by default
     FrameUpdate update = FrameUpdate::automatic;
     TreeOver trees = TreeOver::object;
+    std::string within =
+        "none";  ///< how far apart pairs may be, as it was asked for (distance_words.h)
+    /// The same in the scene's unit; nothing if pairs of boxes or contacts are asked for.
+    std::optional<double> distance = std::nullopt;
 
     bool operator==(const ColliderChoice&) const = default;
 };

@@ -11,6 +11,7 @@
 #include "builders/orders.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
+#include "harness/choice/distance_words.h"
 #include "harness/choice/filter_words.h"
 
 namespace bvhbench {
@@ -121,6 +122,14 @@ constexpr Choice table[] = {
      "end at the first contact: whether any two triangles intersect, exactly, and two that do",
      set_word<collider, &ColliderChoice::first, truths>,
      value_of<collider, &ColliderChoice::first>},
+    {"within", Of::query, "none, a distance, or a share as 1% of the diagonal of the scene's box",
+     "pairs of triangles at most this far apart, exactly: a distance in the scene's unit, or a "
+     "share as 1% of the diagonal of the box around its first frame",
+     [](CellChoice& choice, const std::string& word) {
+         choice.collider.within = word;
+         return word == "none" || is_distance(word);
+     },
+     value_of<collider, &ColliderChoice::within>},
     {"no_skip", Of::query, "none, all, or a name of `list skips`",
      "a rule of `list skips` that is not used, or all: work is done that need not be",
      [](CellChoice& choice, const std::string& word) {
@@ -283,11 +292,15 @@ void check_choice(const CellChoice& choice)
         return;
     find_collider(choice.collider.name);
     check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
-    if (const std::string& narrow = choice.collider.narrow;
-        choice.collider.first && narrow != "none" && !find_narrow_method(narrow).is_exact)
-        throw BadUsage(
-            "the first contact is exact: beside 'first' 'narrow' is none or exact, not '" + narrow +
-            "'");
+    const bool is_within = choice.collider.within != "none";
+    if (const std::string& narrow = choice.collider.narrow; (choice.collider.first || is_within) &&
+                                                            narrow != "none" &&
+                                                            !find_narrow_method(narrow).is_exact)
+        throw BadUsage((is_within ? "what is within a distance is exact: beside 'within'"
+                                  : "the first contact is exact: beside 'first'") +
+                       (" 'narrow' is none or exact, not '" + narrow + "'"));
+    if (is_within && choice.collider.first)
+        throw BadUsage("'first' ends at a contact, and 'within' is about all pairs: choose one");
     if (const unsigned both = choice.collider.rules_off & choice.collider.rules_forced; both != 0)
         throw BadUsage("a rule is switched off by 'no_skip' or forced by 'force_skip', not both: " +
                        skip_rules_text(both));

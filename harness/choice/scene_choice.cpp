@@ -77,6 +77,8 @@ void check_swept(const CollideTask& task)
     for (const PipelineChoice& pipeline : task.pipelines) {
         if (pipeline.collider.first)
             throw BadUsage("'first' is about triangles of one moment, and swept boxes are not");
+        if (pipeline.collider.within != "none")
+            throw BadUsage("'within' is about triangles of one moment, and swept boxes are not");
         if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
             find_order(pipeline.builder.order).medians != Medians::nowhere)
             throw BadUsage("order " + pipeline.builder.order +

@@ -82,9 +82,13 @@ private:
                         "--pairs and --contacts write those of one scene, and there are " +
                         std::to_string(scenes_.size()));
             }
+        const bool is_within = choice_.collider.within != "none";
+        if (!pairs_.empty() && is_within)
+            throw BadUsage(
+                "--within finds pairs of triangles and none of boxes: --contacts, not --pairs");
         for (const std::string& name : names_.colliders) {
             const bool finds_contacts =
-                find_collider(name).finds_contacts || choice_.collider.first;
+                find_collider(name).finds_contacts || choice_.collider.first || is_within;
             if (!pairs_.empty() && finds_contacts)
                 throw BadUsage("collider " + name +
                                " finds contacts and no pairs of boxes: --contacts, not --pairs");
@@ -98,10 +102,11 @@ private:
     {
         if (containment_ &&
             (choice_.scene.swept || !choice_.scene.exclude.empty() || choice_.collider.first ||
-             choice_.collider.narrow != "exact" || choice_.collider.among == Among::within_objects))
+             choice_.collider.within != "none" || choice_.collider.narrow != "exact" ||
+             choice_.collider.among == Among::within_objects))
             throw BadUsage(
                 "--containment needs all exact contacts between objects: --narrow exact, without "
-                "--swept, --exclude, --first and --pairs-of within");
+                "--swept, --exclude, --first, --within and --pairs-of within");
     }
 
     /// Records which objects of a frame are inside others in its cells.
@@ -233,6 +238,8 @@ extern const CommandEntry collide_command = {
       "between objects, and what leaving work out saves"},
      {"bvhbench collide --collider leaf --scene cloth-ball:20000 --adjacent drop --first",
       "whether anything intersects"},
+     {"bvhbench collide --collider leaf --scene cloth-ball:20000 --adjacent drop --within 0.5%",
+      "what is at most half a percent of the scene's diagonal apart"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept",
       "what may meet between frames"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept --narrow ccd-1e-4",

@@ -5,6 +5,7 @@
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
+#include "harness/choice/distance_words.h"
 #include "harness/choice/filter_words.h"
 #include "harness/measure/frames.h"
 #include "scenes/generate/derived.h"
@@ -36,6 +37,7 @@ std::vector<PipelineState> pipelines_over(const CollideTask& task, const Scene& 
         all.push_back({pipeline});
         ColliderChoice& collider = all.back().choice.collider;
         collider.filter = filter;
+        collider.distance = distance_of(collider.within, scene);
         if (collider.trees != TreeOver::automatic)
             continue;
         collider.trees = scene.later.empty()

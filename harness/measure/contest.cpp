@@ -15,8 +15,9 @@
 namespace bvhbench {
 namespace {
 
-constexpr const char* stages[] = {"bounds",    "codes", "sort",     "order", "gather", "hierarchy",
-                                  "to_device", "ropes", "collapse", "broad", "copy",   "narrow"};
+constexpr const char* stages[] = {"bounds",    "codes",     "sort",  "order",    "gather",
+                                  "hierarchy", "to_device", "ropes", "collapse", "broad",
+                                  "copy",      "narrow",    "pad",   "exact"};
 
 std::string numbers(auto... values) { return (... + (' ' + std::to_string(values))); }
 
@@ -24,7 +25,8 @@ std::string numbers(auto... values) { return (... + (' ' + std::to_string(values
 std::string question_of(const ColliderChoice& collider)
 {
     return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off,
-                   collider.rules_forced, static_cast<int>(collider.update), collider.first);
+                   collider.rules_forced, static_cast<int>(collider.update), collider.first) +
+           ' ' + collider.within;
 }
 
 /// Returns a text that is equal for two cells if the stage does the same work in both.

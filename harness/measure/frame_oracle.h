@@ -164,7 +164,10 @@ public:
         if (!pairs.is_asked())
             pairs = Expected(key_of(asked, 'p'), "pairs", note_, [this, choice](OracleProgress&) {
                 require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
-                return Answer(touching_pairs(leaf_boxes(input_), input_.faces, choice.keep_adjacent,
+                std::vector<Aabb> boxes = leaf_boxes(input_);
+                if (choice.distance)
+                    pad_boxes(boxes, *choice.distance);
+                return Answer(touching_pairs(boxes, input_.faces, choice.keep_adjacent,
                                              input_.objects, choice.among, choice.filter),
                               file_faces_);
             });
@@ -187,6 +190,11 @@ public:
                             pairs_of(touching_on_the_way(input_.points, input_.end_points,
                                                          input_.faces, candidates, &progress.done)),
                             file_faces_);
+                    if (choice.distance)
+                        return Answer(
+                            pairs_within(input_.points, input_.faces, candidates,
+                                         choice.keep_adjacent, *choice.distance, &progress.done),
+                            file_faces_);
                     Answer answer(intersecting_pairs(input_.points, input_.faces, candidates,
                                                      std::get<1>(asked), &progress.done),
                                   file_faces_);
@@ -201,11 +209,11 @@ private:
     /// Changes whenever an oracle answers differently, so that older answers are not found.
     static constexpr int oracle_version = 1;
 
-    /// The kind of pairs, whether adjacent ones are kept, and the hash of the filter.
-    using Asked = std::tuple<Among, bool, std::uint64_t>;
+    /// The kind of pairs, whether adjacent ones are kept, the hash of the filter, and how far apart pairs may be.
+    using Asked = std::tuple<Among, bool, std::uint64_t, std::optional<double>>;
     static Asked asked_of(const ColliderChoice& choice)
     {
-        return {choice.among, choice.keep_adjacent, choice.filter.hash()};
+        return {choice.among, choice.keep_adjacent, choice.filter.hash(), choice.distance};
     }
     struct Entry {
         Expected pairs, contacts;
@@ -218,6 +226,8 @@ private:
         key.value(std::get<1>(asked));
         if (const std::uint64_t filter = std::get<2>(asked); filter != 0)
             key.value(filter);
+        if (const std::optional<double> distance = std::get<3>(asked))
+            key.value(*distance);
         key.value(list);
         return key.get();
     }

@@ -119,7 +119,9 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
 {
     cell.check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
     found = {.scene = found.scene};
-    if (pipeline.has_pairs())
+    cell.within_distance = cell.collider.distance;
+    if (pipeline.has_pairs() &&
+        !cell.collider.distance)  // else they are candidates of padded boxes
         judge_pairs(pipeline, cell, found);
     if (cell.collider.first)
         judge_first(pipeline, cell, found);
@@ -210,12 +212,14 @@ void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& f
     const Expected& expected = oracle_.contacts(cell.collider);
     const FoundList contacts(pipeline.contacts(), expected, frame_);
     const bool is_swept = frame_.input.is_swept();
-    if (pipeline.collider().finds_contacts() || find_narrow_method(cell.collider.narrow).is_exact)
+    const bool is_within = cell.collider.distance.has_value();
+    if (is_within || pipeline.collider().finds_contacts() ||
+        find_narrow_method(cell.collider.narrow).is_exact)
         contacts.add_differences("contacts", check);
     else
         check_inexact(contacts.list(), expected.list().list, !is_swept, cell);
     found.contacts = contacts.in_file(check.contacts_hash);
-    if (!is_swept && contacts.is_right())
+    if (!is_swept && !is_within && contacts.is_right())
         cell.counters["touching_count"] = static_cast<double>(expected.facts().touching);
 }
 

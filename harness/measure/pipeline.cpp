@@ -19,6 +19,10 @@ unsigned rules_without(FrameUpdate update)
                                           : 0;
 }
 
+/// Rules that are not used with `within`: they go by the points, and boxes are padded.
+constexpr unsigned of_whole_frames =
+    skip_unchanged | skip_rigid | skip_near | skip_margin | skip_deforming;
+
 /// Returns the longest side of the box around both frames of a swept input; nothing for another input.
 std::optional<float> swept_size(const Input& input)
 {
@@ -63,7 +67,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     rules_off_ = used.rules_off =
         skip_rules_off(collider.rules_off | rules_without(collider.update), collider.rules_forced,
                        on_cpu, input.triangle_count()) |
-        (collider.first ? skip_margin | skip_deforming : 0u);  // they go by all pairs and tests
+        (collider.first ? skip_margin | skip_deforming : 0u) |  // they go by all pairs and tests
+        (collider.distance ? of_whole_frames : 0u);
     collider_ = make_collider(used, session.programs());
     if (input.is_swept() && collider_->finds_contacts())
         throw BadUsage("swept boxes are of the way between two frames, and the collider " +
@@ -71,8 +76,18 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
     check_trees(collider, *collider_, builder_.get());
+    if (collider.distance && (collider_->is_on_host() || collider_->finds_contacts() ||
+                              (builder_ && builder_->card().runs != BuilderCard::Runs::on_device) ||
+                              (builder_ && find_builder(choice_.name).outside != nullptr)))
+        throw BadUsage("'within' pads boxes on the device: a builder or collider " +
+                       std::string("of the host or from outside does without"));
     reserve_for(input);
-    if (collider.narrow != "none" && !collider_->finds_contacts()) {
+    if (collider.distance) {
+        within_.emplace(session.programs(), WithinOptions{.distance = *collider.distance,
+                                                          .keep_adjacent = collider.keep_adjacent,
+                                                          .form = collider.form});
+        within_->reserve(input);
+    } else if (collider.narrow != "none" && !collider_->finds_contacts()) {
         narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,
                                                           .form = collider.form,
@@ -122,7 +137,10 @@ void Pipeline::take_tree(const Tree& tree, const Input& of_trees)
 void Pipeline::enqueue(const Input& input)
 {
     Queue& queue = session_.queue();
-    if (!is_plain()) {
+    if (within_) {
+        enqueue_query(within_->padded(input, queue));
+        within_->query(input, collider_->device_pairs(queue), queue);
+    } else if (!is_plain()) {
         enqueue_margin(input);
     } else if (!entering_) {
         enqueue_query(input);
@@ -161,7 +179,8 @@ bool Pipeline::complete()
     if (does_ == MarginFrame::renewed &&
         std::exchange(listed_, collider_->counts(queue).pairs) != collider_->counts(queue).pairs)
         return false;  // the filter was launched over as many as an older list had
-    return (is_plain() || margin_->complete(queue)) && (!narrow_ || narrow_->complete(queue));
+    return (is_plain() || margin_->complete(queue)) && (!narrow_ || narrow_->complete(queue)) &&
+           (!within_ || within_->complete(queue));
 }
 
 std::vector<StageTime> Pipeline::prepare(const Input& input)
@@ -219,6 +238,8 @@ std::vector<Pair> Pipeline::pairs() const
 
 std::vector<Pair> Pipeline::contacts() const
 {
+    if (within_)
+        return within_->pairs(session_.queue());
     return narrow_ && queries() ? narrow_->contacts(session_.queue()) : pairs();
 }
 

@@ -13,6 +13,7 @@
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
 #include "collide/standing/standing.h"
+#include "collide/within/within.h"
 #include "harness/choice/catalog.h"
 #include "harness/measure/one_tree.h"
 #include "harness/session/session.h"
@@ -44,7 +45,7 @@ public:
 
     /// Results of the last frame. All of these functions block until it is done.
     bool has_pairs() const { return !collider_->finds_contacts(); }
-    bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
+    bool has_contacts() const { return collider_->finds_contacts() || narrow_ || within_; }
     std::vector<Pair> pairs() const;     ///< in any order; requires has_pairs()
     std::vector<Pair> contacts() const;  ///< in any order; requires has_contacts()
     /// Of the contacts between two frames, sorted by their pairs, NarrowPhase::impact_times(). Empty for contacts of one frame.
@@ -115,6 +116,8 @@ private:
     double tests_of_new_ = 0;  ///< of the last frame without worn trees
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
+    std::optional<WithinPhase>
+        within_;  ///< if pairs within a distance are asked for, in place of narrow_
     std::optional<NearTriangles> near_;         ///< if the rule `near` may apply
     std::optional<Entering> entering_;          ///< if the rule applies; else all triangles enter
     std::optional<MarginPairs> margin_;         ///< if the rule `margin` may apply

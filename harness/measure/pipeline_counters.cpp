@@ -115,6 +115,13 @@ std::map<std::string, double> Pipeline::counters() const
         put("narrow_bytes", narrow_->reserved().total());
         memory += narrow_->reserved().total();
     }
+    if (within_) {
+        const WithinCounts within = within_->counts(queue);
+        put("contacts_count", within.within);
+        put("narrow_exact_count", within.exactly);
+        put("narrow_bytes", within_->reserved().total());
+        memory += within_->reserved().total();
+    }
     put("memory_bytes", memory);
     return counters;
 }

@@ -158,6 +158,8 @@ std::string cell_text(const Cell& cell)
     if (!cell.leaves_by_depth.empty())
         json["leaves_by_depth"] = cell.leaves_by_depth;
     json["check"] = json_of(cell.check);
+    if (cell.within_distance)
+        json["within_distance"] = *cell.within_distance;
     if (cell.first_contact)
         json["first_contact"] = *cell.first_contact;
     for (const auto& [object, of] : cell.contained)

@@ -125,6 +125,8 @@ struct Cell {
     std::map<std::string, std::string> left_out;  ///< counters without a value, with the reason
     std::vector<std::int64_t> leaves_by_depth;    ///< number of leaves per level, from the root on
     Check check;
+    /// With `within`: the distance in the scene's unit, for which pairs are exact.
+    std::optional<double> within_distance = {};
     /// With `first`: two triangles that intersect, by their numbers in the scene's file; empty: no two do.
     std::optional<std::vector<uint>> first_contact = {};
     /// Objects that lie wholly inside others, each with the name of the other (--containment).

@@ -75,7 +75,8 @@ std::size_t best_of(std::span<const Runner> cells)
 bool is_of_query(std::string_view stage)
 {
     return stage == "near" || stage == "margin" || stage == "filter" || stage == "ropes" ||
-           stage == "collapse" || stage == "broad" || stage == "copy" || stage == "narrow";
+           stage == "pad" || stage == "exact" || stage == "collapse" || stage == "broad" ||
+           stage == "copy" || stage == "narrow";
 }
 
 double raced_ns(Race race, const std::vector<StageTime>& stages, std::int64_t wall_ns)

@@ -29,6 +29,7 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
           "narrow": ("collide/narrow/",), "near": ("collide/near",), "margin": ("collide/margin", "collide/standing"), "objects": (MANY, "collide/object_order")}
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
+OF_WITHIN = {"within": ("collide/within/", "collide/narrow/")}
 OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
@@ -58,7 +59,7 @@ class Work(NamedTuple):
         if collider == "grid":
             return of_collider
         own = next((paths for name, paths in BUILDERS.items() if self.builder.startswith(name)), ())
-        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_FIRST | OF_SWEPT).get(stage, own if stage in OF_BUILDER else ())}
+        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_FIRST | OF_WITHIN | OF_SWEPT).get(stage, own if stage in OF_BUILDER else ())}
         return of_collider | (stages - set(own) if self.builder == "oibvh-host" else stages)
 
 
@@ -96,7 +97,8 @@ def works(document: dict[str, Any]) -> set[Work]:
     cells = [Cell(raw) for raw in document["cells"]]
     found = {Work(cell.builder, cell.collider or "", (*(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
                                                         for stage in cell.samples[0]), *(("objects",) if is_of_many(cell) else ()),
-                                                        *(OF_FIRST if "first_contact" in cell.raw else ())))
+                                                        *(OF_FIRST if "first_contact" in cell.raw else ()),
+                                                        *(OF_WITHIN if "within_distance" in cell.raw else ())))
              for cell in cells if cell.samples}
     found |= {Work(cell.builder, cell.collider or "", (*OF_FRAME, *(("exchange",) if cell.cluster["ranks_count"] > 1 else ())))
               for cell in cells if cell.cluster and cell.status == "measured"}

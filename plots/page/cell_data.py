@@ -54,6 +54,8 @@ def asked(cell: Cell) -> str:
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")
     if options.get("first") == "True":
         words.append("first contact")
+    elif options.get("within", "none") != "none":
+        words.append(f"within {options['within']}")
     elif narrow != "none":
         words.append(f"contacts ({narrow})")
     return ", ".join(words + caches)

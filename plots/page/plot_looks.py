@@ -14,7 +14,7 @@ SYMBOLS = {"s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamon
 MORE_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "star", "hexagon", "cross", "x", "pentagon",
                 "triangle-left", "triangle-right", "diamond-tall", "hexagon2")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
-HATCHED = {"near": "/", "margin": "x", "filter": "/", "order": "/", "gather": "/", "build": "+", "refit": ".", "ropes": "x", "collapse": "o", "copy": "/"}
+HATCHED = {"near": "/", "margin": "x", "pad": ".", "exact": "/", "filter": "/", "order": "/", "gather": "/", "build": "+", "refit": ".", "ropes": "x", "collapse": "o", "copy": "/"}
 # Colours of figures that are too dark on a dark page, and those that replace them there.
 IN_THE_DARK = {"#000000": "#F4F4F4", "#0072B2": "#3C95D6", "#8C510A": "#C07A35", "#666666": "#A0A0A0"}
 UNKNOWN = style.Look("#666666", "o")

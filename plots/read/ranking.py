@@ -23,7 +23,7 @@ from .cells import Cell, Sample, counted, elapsed_ns, grouped, later, median, wh
 from .results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
-OF_QUERY = ("near", "margin", "filter", "ropes", "collapse", "broad", "copy", "narrow", "read_back")  # stages that follow the tree
+OF_QUERY = ("near", "margin", "pad", "filter", "ropes", "collapse", "broad", "copy", "narrow", "exact", "read_back")  # stages that follow the tree
 FEWEST = 3  # samples from which intervals are compared
 LEAST = 0.005  # differences below this are none: the best of two runs differ by more (docs/races.md)
 FAR = 3  # ratio from which fewer samples are enough

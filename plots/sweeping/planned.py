@@ -12,7 +12,7 @@ NO_BUILDER = "none"  # for colliders without a tree
 # Options that a sweep varies, in the order in which they are applied: the part that each belongs to, and its key there.
 OPTIONS = {"grid": ("builder", "grid"), "builder.group_size": ("builder", "group_size"), "items": ("builder", "items"),
            "boxes": ("builder", "boxes"), "leaves": ("builder", "leaves"), "pairs_of": ("query", "pairs_of"),
-           "adjacent": ("query", "adjacent"), "narrow": ("query", "narrow"), "first": ("query", "first"),
+           "adjacent": ("query", "adjacent"), "narrow": ("query", "narrow"), "first": ("query", "first"), "within": ("query", "within"),
            "no_skip": ("query", "no_skip"), "force_skip": ("query", "force_skip"), "update": ("query", "update"), "trees": ("query", "trees"),
            "jump": ("collider", "jump"), "start_level": ("collider", "start_level"),
            "collider.group_size": ("collider", "group_size"), "frames": ("scene", "frames"), "between": ("scene", "between"),

@@ -4,8 +4,8 @@ from typing import Any
 
 # Stages in the order in which they run, by the part of a frame that they belong to (docs/frames.md). A part is named after its
 # stages, so that a figure and a table use one word for one thing.
-PARTS = (("upload", "near", "margin", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "to_device", "ropes"),
-         ("collapse", "copy", "broad", "filter"), ("narrow", "read_back"))
+PARTS = (("upload", "near", "margin", "pad", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "to_device", "ropes"),
+         ("collapse", "copy", "broad", "filter"), ("narrow", "exact", "read_back"))
 STAGES = tuple(stage for stages in PARTS for stage in stages)
 OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "build", "refit")
 OF_QUERIES = ("ropes", "collapse", "broad", "narrow")
@@ -27,7 +27,7 @@ OPTIONS = {"no_skip": ("", "without {}"), "force_skip": ("", "{} forced"),
 USED = {"start": ("", "from {}")}
 # Options that change what is found. Figures show them elsewhere.
 ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}"),
-           "first": ("False", "first contact")}
+           "first": ("False", "first contact"), "within": ("none", "within {}")}
 # Where samples find their data, if not in hot caches.
 CACHES = {"cold": "cold caches", "host": "from host to host"}
 # Names that say more than the command line's.

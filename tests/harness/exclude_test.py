@@ -90,7 +90,7 @@ def test_wrong_words_are_refused_in_one_sentence():
         expect(2, *leaf, "--exclude", "@wrong.filter", says=f"wrong.filter:2: {why}")
     expect(3, *leaf, "--exclude", "@no.filter", says="the filter file 'no.filter' cannot be read")
     expect(2, *leaf, "--exclude", "0,1", "--swept", says="swept, objects are the scene's vertices, faces and edges")
-    expect(2, *leaf, "--exclude", "0,1", "--narrow", "exact", "--containment", says="without --swept, --exclude, --first and")
+    expect(2, *leaf, "--exclude", "0,1", "--narrow", "exact", "--containment", says="without --swept, --exclude, --first, --within and")
     lines = pathlib.Path("arm.obj").read_text().replace("o hand", "o base")
     pathlib.Path("arm.obj").write_text(lines)
     expect(2, *leaf, "--exclude", "base,1", says="2 objects of scene 'arm.obj' are called 'base': give the number of one")

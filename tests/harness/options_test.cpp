@@ -62,6 +62,7 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                   {"adjacent", "drop"},
                   {"narrow", "exact"},
                   {"first", true},
+                  {"within", "none"},
                   {"no_skip", "near"},
                   {"force_skip", "rigid"},
                   {"update", "refit"},

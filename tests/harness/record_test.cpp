@@ -90,6 +90,7 @@ TEST(Record, TellsAllThatACellIsAbout)
     cell.leaves_by_depth = {0, 1, 2};
     cell.check = {Check::Verdict::counted, "brute", "3 false", {}, 0x34u, 0x56u};
     cell.first_contact = {3, 5};
+    cell.within_distance = 0.1;
     cell.first = {.compile_ns = 12, .run_ns = 34};
     cell.sampling = {.stopped = Stopped::noisy, .until = 0.02, .caches = Caches::cold};
     cell.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}, 99, true}};
@@ -99,7 +100,7 @@ TEST(Record, TellsAllThatACellIsAbout)
     EXPECT_EQ(at("/builder/options/boxes"), "u16");
     EXPECT_EQ(at("/collider"),
               Json::parse(R"({"name": "leaf", "options": {"pairs_of": "between", "adjacent": "drop",
-        "narrow": "exact", "first": false, "no_skip": "", "force_skip": "", "update": "auto", "trees": "object", "jump": 3, "start_level": 2, "group_size": 64}})"));
+        "narrow": "exact", "first": false, "within": "none", "no_skip": "", "force_skip": "", "update": "auto", "trees": "object", "jump": 3, "start_level": 2, "group_size": 64}})"));
     EXPECT_EQ(at("/scene/outlier/diameters"), 2.5);
     EXPECT_EQ(at("/scene/doubles/offset/0"), 4500123.45);
     EXPECT_EQ(at("/scene/objects_by"), "components");
@@ -109,6 +110,7 @@ TEST(Record, TellsAllThatACellIsAbout)
     EXPECT_EQ(at("/left_out/epo"), "not asked for");
     EXPECT_EQ(at("/leaves_by_depth"), Json({0, 1, 2}));
     EXPECT_EQ(at("/first_contact"), Json({3, 5}));
+    EXPECT_EQ(at("/within_distance"), 0.1);
     EXPECT_EQ(at("/check/verdict"), "counted");
     EXPECT_EQ(at("/check/contacts_hash"), "0000000000000056");
     EXPECT_EQ(at("/first/run_ns"), 34);
