@@ -32,6 +32,17 @@ struct Input {
     uint triangle_count() const { return static_cast<uint>(device_faces.size()); }
     bool is_swept() const { return !end_points.empty(); }
 
+    /// Returns the input swept from the points `low` to `high` of the device. Host points are not those: for builders and colliders of the
+    /// device alone.
+    Input between(const Buffer<Point>& low, const Buffer<Point>& high) const
+    {
+        Input wide = *this;
+        wide.device_points = low;
+        wide.device_end_points = high;
+        wide.end_points = points;  // says that it is swept
+        return wide;
+    }
+
     /// Returns the bytes of points that boxes are computed from.
     std::size_t point_bytes() const { return device_points.bytes() + device_end_points.bytes(); }
 };

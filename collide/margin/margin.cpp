@@ -180,11 +180,7 @@ Input MarginPairs::with_room(const Input& input, Queue& queue)
     set_arguments(give_, before_, input.device_points, frames_, slack, skin_, low_, high_,
                   static_cast<uint>(low_.size()));
     launch(give_, low_.size(), static_cast<std::int64_t>(4 * low_.bytes()), queue);
-    Input wide = input;
-    wide.device_points = low_;
-    wide.device_end_points = high_;
-    wide.end_points = wide.points;  // says that the input is swept; the host's copies are not read
-    return wide;
+    return input.between(low_, high_);
 }
 
 void MarginPairs::filter(const DevicePairs& listed, std::size_t most, const Input& input,

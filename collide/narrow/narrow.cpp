@@ -46,16 +46,16 @@ constexpr std::size_t swept_groups_per_unit = 32;
 /// long, and those of the slowest kind, pairs a hair's breadth apart, 0.78 times (not kept).
 constexpr std::size_t filter_groups_per_unit = 6, exact_groups_per_unit = 2;
 
-Corners corners_of(std::span<const Point> points, Face face)
-{
-    return {{points[face.a], points[face.b], points[face.c]}};
-}
-
 }  // namespace
 
 bool has_doubles(const Device& device)
 {
     return device.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
+}
+
+Corners corners_of(std::span<const Point> points, Face face)
+{
+    return {{points[face.a], points[face.b], points[face.c]}};
 }
 
 bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, Pair pair,

@@ -10,6 +10,7 @@
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "collide/collider.h"
+#include "collide/narrow/exact_contact.h"
 #include "collide/narrow/narrow_methods.h"
 #include "collide/pairs.h"
 #include "device/arena.h"
@@ -125,6 +126,8 @@ private:
 
 /// True if the device computes in doubles.
 bool has_doubles(const Device& device);
+
+Corners corners_of(std::span<const Point> points, Face face);
 
 /// True if two triangles intersect, exactly. With `keep_adjacent`, beyond the corners that they share by index.
 bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, Pair pair,

@@ -4,9 +4,9 @@
 // its triangles have the bits that they had in the frame before. A pair that stands is not given to the narrow phase; of the contacts
 // of the frame before, those that stand are appended to the contacts found.
 //
-// Proof. A verdict of the narrow phase depends on the bits of six corners and on six indices. So a pair that stands is in contact if it
-// was in contact in the frame before, of which all contacts are known: all pairs were tested there, or the same holds of it. Boxes depend
-// on corners only, so it is among the pairs found, too. No contact is there twice: pairs that stand are not tested.
+// Proof. A verdict of the narrow phase depends on the bits of six corners and on six indices. So a pair that stands is in contact exactly if
+// it was in the frame before. All contacts of that frame are known, by induction: in the first, all pairs were tested. Boxes depend on
+// corners only, so the pair is among the pairs found in both. No contact is there twice: pairs that stand are not tested.
 #pragma once
 
 #include <cstdint>

@@ -44,11 +44,6 @@ std::pair<double, double> square_of(double distance)
     return {underflows ? 0 : square, underflows ? 0x1p-900 : square};
 }
 
-Corners corners_at(std::span<const Point> points, Face face)
-{
-    return {{points[face.a], points[face.b], points[face.c]}};
-}
-
 }  // namespace
 
 bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair pair,
@@ -57,7 +52,7 @@ bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair
     const Face a = faces[pair.a], b = faces[pair.b];
     if (share_a_vertex(a, b))
         return options.keep_adjacent;
-    const Corners at_a = corners_at(points, a), at_b = corners_at(points, b);
+    const Corners at_a = corners_of(points, a), at_b = corners_of(points, b);
     const auto [low, high] = square_of(options.distance);
     if (const uint likely = likely_within(at_a, at_b, low, high); likely != VERDICT_UNSURE)
         return likely == VERDICT_MEET;
@@ -125,11 +120,7 @@ Input WithinPhase::padded(const Input& input, Queue& queue)
                            : chunk_count(programs_.device()),
                  in_groups ? within_group_size : 1,
                  static_cast<std::int64_t>(3 * low_ends_.bytes()));
-    Input wide = input;
-    wide.device_points = low_ends_;
-    wide.device_end_points = high_ends_;
-    wide.end_points = wide.points;  // says that the input is swept; the host's copies are not read
-    return wide;
+    return input.between(low_ends_, high_ends_);
 }
 
 void WithinPhase::query(const Input& input, const DevicePairs& candidates, Queue& queue)

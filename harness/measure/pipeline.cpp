@@ -10,18 +10,17 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the rules that a choice of updates excludes.
-unsigned rules_without(FrameUpdate update)
+/// Returns the rules that a choice excludes. With `first` not all pairs and tests are known that `margin` and `deforming` go by; with a
+/// distance boxes are padded, and rules that go by the points do not know.
+unsigned rules_without(const ColliderChoice& choice)
 {
-    constexpr unsigned never = skip_unchanged | skip_rigid | skip_deforming | skip_margin;
-    return update == FrameUpdate::rebuild ? never
-           : update == FrameUpdate::refit ? never | skip_near
-                                          : 0;
+    constexpr unsigned of_updates = skip_unchanged | skip_rigid | skip_deforming | skip_margin;
+    if (choice.distance || choice.update == FrameUpdate::refit)
+        return of_updates | skip_near;
+    if (choice.update == FrameUpdate::rebuild)
+        return of_updates;
+    return choice.first ? skip_margin | skip_deforming : 0u;
 }
-
-/// Rules that are not used with `within`: they go by the points, and boxes are padded.
-constexpr unsigned of_whole_frames =
-    skip_unchanged | skip_rigid | skip_near | skip_margin | skip_deforming;
 
 /// Returns the longest side of the box around both frames of a swept input; nothing for another input.
 std::optional<float> swept_size(const Input& input)
@@ -65,10 +64,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     const bool on_cpu = session.device().is_cpu() || !find_collider(collider.name).needs_tree;
     ColliderChoice used = one_tree_ ? one_tree_->question() : collider;
     rules_off_ = used.rules_off =
-        skip_rules_off(collider.rules_off | rules_without(collider.update), collider.rules_forced,
-                       on_cpu, input.triangle_count()) |
-        (collider.first ? skip_margin | skip_deforming : 0u) |  // they go by all pairs and tests
-        (collider.distance ? of_whole_frames : 0u);
+        skip_rules_off(collider.rules_off, collider.rules_forced, on_cpu, input.triangle_count()) |
+        rules_without(collider);
     collider_ = make_collider(used, session.programs());
     if (input.is_swept() && collider_->finds_contacts())
         throw BadUsage("swept boxes are of the way between two frames, and the collider " +

@@ -56,7 +56,7 @@ PairList contacts_of(const Standing& standing, bool keep_adjacent, Among among =
                               standing.expected(keep_adjacent, among).pairs(), keep_adjacent);
 }
 
-/// Triangles of `size` at random places of a cube, of which some share a corner or two with the one before.
+/// Triangles of `size` at random places of a cube. Some share a corner or two with the triangle before.
 Mesh scattered(uint count, float size, Dice& dice)
 {
     Mesh mesh;
