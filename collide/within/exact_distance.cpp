@@ -3,26 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "collide/within/integer.h"
+
 namespace bvhbench {
 namespace {
-
-using Integer = boost::multiprecision::cpp_int;
-
-/// Returns the double `value` in units of 2^unit, which must divide it.
-Integer in_units(double value, int unit)
-{
-    constexpr int digits = std::numeric_limits<double>::digits;
-    int exponent = 0;
-    const Integer whole =
-        static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), digits));
-    const int shift = exponent - digits - unit;
-    return shift >= 0 ? Integer(whole << shift) : Integer(whole / (Integer(1) << -shift));
-}
 
 struct Exact {
     Integer x, y, z;
@@ -112,11 +100,11 @@ bool parted_within(const Corners& a, const Corners& b, double distance)
         Triangle triangle;
         for (std::size_t k = 0; k < 3; ++k) {
             const Point p = corners.at[k];
-            triangle[k] = {in_units(p.x, unit), in_units(p.y, unit), in_units(p.z, unit)};
+            triangle[k] = {Integer(p.x, unit), Integer(p.y, unit), Integer(p.z, unit)};
         }
         return triangle;
     };
-    const Integer reach = in_units(distance, unit);
+    const Integer reach(distance, unit);
     return are_near(exact(a), exact(b), reach * reach);
 }
 
