@@ -15,12 +15,9 @@
 #include <vector>
 
 #include "geometry/mesh.h"
+#include "geometry/moving_query.h"
 
 namespace bvhbench {
-
-struct WidePoint {
-    double x = 0, y = 0, z = 0;
-};
 
 /// Transformation of doubles before they are rounded.
 enum class Doubles {
