@@ -23,4 +23,14 @@ std::vector<Impact> touching_on_the_way(std::span<const Point>, std::span<const 
     throw Unavailable("this build has no CGAL to tell what touches between two frames");
 }
 
+std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery>, Checked*)
+{
+    throw Unavailable("this build has no CGAL to tell when features touch");
+}
+
+std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const MovingQuery> queries)
+{
+    return impact_times(queries);
+}
+
 }  // namespace bvhbench

@@ -6,18 +6,15 @@
 // all times, and those signs alone decide; whole numbers tell where intervals cannot tell that it is.
 #include "collide/oracles/swept_reference.h"
 
-#include <CGAL/Algebraic_kernel_d_1.h>
-#include <CGAL/CORE_BigInt.h>
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <optional>
-#include <set>
 #include <utility>
 
+#include "collide/oracles/first_touch.h"
 #include "collide/oracles/moving_features.h"
 #include "geometry/cores.h"
 #include "geometry/host_memory.h"
@@ -25,50 +22,39 @@
 namespace bvhbench {
 namespace {
 
-using Interval = CGAL::Interval_nt<false>;
-using Whole = CORE::BigInt;
+constexpr std::size_t at_once = 256;  ///< queries that a thread takes
+constexpr int most_halvings = 41;     ///< of the time, in interval arithmetic
+constexpr double precise = 0x1p-40;   ///< the most between the bounds of a time of impact
 
-constexpr std::size_t pairs_at_once = 256;  ///< pairs that a thread takes at once
-constexpr int most_halvings = 40;           ///< of the time, in interval arithmetic
-
-/// Sign of a polynomial over an interval of time, if it is the same throughout.
-struct SignDuring {
-    Interval time;
-
-    Sign operator()(const Polynomial<Interval>& p) const
-    {
-        const auto& c = p.of;
-        const Interval middle = (time.inf() + time.sup()) / 2;
-        const Interval at_middle = c[0] + middle * (c[1] + middle * (c[2] + middle * c[3]));
-        const Interval slope = c[1] + time * (Interval(2) * c[2] + time * Interval(3) * c[3]);
-        return CGAL::sign(at_middle + slope * (time - middle));
-    }
-};
-
-/// Looks for a time at which the features touch, by intervals, from the first on.
+/// Looks for the first time at which the features touch, by intervals.
 struct Search {
-    const Motion<Interval>& all;
-    const Polynomial<Interval>& volume;
-    int undecided;        ///< how many intervals that are not halved further may remain undecided
-    double no_later = 0;  ///< if they touch: a time up to which they do
+    const Polynomial<Interval, 3>& volume;
+    const Areas<Interval>& areas;
+    double finest;  ///< the most between the bounds of the time
+    int undecided;  ///< how many intervals that are not halved further may remain undecided
+    std::optional<double> no_sooner = {};
+    double no_later = 0;  ///< if they touch
 
-    /// Whether the features touch from `begin` to `end`, if intervals can tell.
+    /// Whether the features touch from `begin` to `end`, if intervals can tell. They do not touch before, or `no_sooner` tells.
     Truth during(double begin, double end, int halvings = most_halvings)
     {
         const SignDuring sign{Interval(begin, end)};
         const Sign side = sign(volume);
         if (CGAL::certainly(side != CGAL::ZERO))
             return false;
-        const Truth meets = meet(all, sign);
+        const Truth meets = meet(areas, sign);
         if (CGAL::certainly_not(meets))
             return false;
         const Sign at_begin = SignDuring{begin}(volume), at_end = SignDuring{end}(volume);
-        const Truth in_one_plane = (side == CGAL::ZERO) | (at_begin * at_end == CGAL::NEGATIVE);
-        if (CGAL::certainly(meets & in_one_plane)) {
-            no_later = CGAL::certainly(side == CGAL::ZERO) ? begin : end;
+        const Truth in_one_plane = (side == CGAL::ZERO) | (at_begin * at_end != CGAL::POSITIVE);
+        const double latest = CGAL::certainly(side == CGAL::ZERO) ? begin : end;
+        if (CGAL::certainly(meets & in_one_plane) && latest - no_sooner.value_or(begin) <= finest) {
+            no_sooner = no_sooner.value_or(begin);
+            no_later = latest;
             return true;
         }
         if (halvings == 0) {
+            no_sooner = no_sooner.value_or(begin);
             --undecided;
             return Truth::indeterminate();
         }
@@ -80,113 +66,128 @@ struct Search {
     }
 };
 
-/// Returns the polynomials whose roots are the times at which features that stay in one plane can first touch after time 0: a
-/// vertex arrives at an edge from beside it, or, if it stays on the edge's line, at an end.
-std::vector<Polynomial<Whole>> arrivals(const Motion<Whole>& all)
-{
-    std::vector<Polynomial<Whole>> found;
-    const auto add_first = [&](const auto& component) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (const Polynomial<Whole> one = component(axis); !one.is_zero()) {
-                found.push_back(one);
-                return true;
-            }
-        return false;
-    };
-    for (const auto& [p, a, b] : vertices_and_edges(all.of_edges))
-        if (!add_first([&](std::size_t axis) { return all.cross(a, b, a, p, axis); }))
-            for (const std::size_t end : {a, b})
-                add_first([&](std::size_t axis) { return all.way(end, p, axis); });
-    return found;
-}
-
-/// Returns a time up to which the features touch, or nothing if they do not.
-std::optional<double> exact_touch(const Motion<Whole>& all)
-{
-    using Kernel = CGAL::Algebraic_kernel_d_1<Whole>;
-    const Kernel kernel;
-    const auto in_cgal = [](const Polynomial<Whole>& p) {
-        return Kernel::Polynomial_1(p.of.begin(), p.of.end());
-    };
-    std::vector<Polynomial<Whole>> changes = {all.volume()};
-    if (changes.front().is_zero())
-        changes = arrivals(all);
-    std::set<Kernel::Algebraic_real_1> times = {
-        kernel.construct_algebraic_real_1_object()(Whole(0))};
-    std::vector<std::pair<Kernel::Algebraic_real_1, Kernel::Multiplicity_type>> roots;
-    for (const Polynomial<Whole>& one : changes)
-        if (!one.is_zero())
-            kernel.solve_1_object()(in_cgal(one), Kernel::Bound(0), Kernel::Bound(1),
-                                    std::back_inserter(roots));
-    for (const auto& [root, multiplicity] : roots)
-        times.insert(root);
-    for (const Kernel::Algebraic_real_1& time : times) {
-        const auto sign = [&](const Polynomial<Whole>& p) {
-            return Sign(kernel.sign_at_1_object()(in_cgal(p), time));
-        };
-        if (CGAL::certainly(sign(all.volume()) == CGAL::ZERO) && CGAL::certainly(meet(all, sign)))
-            return CGAL::to_interval(time).second;
-    }
-    return std::nullopt;
-}
+constexpr double WidePoint::*axes[] = {&WidePoint::x, &WidePoint::y, &WidePoint::z};
 
 /// Makes a motion of numbers that `number` makes of the 24 coordinates.
 template <class Number, class Make>
-Motion<Number> motion_of(const std::array<Point, 4>& from, const std::array<Point, 4>& to,
-                         bool of_edges, const Make& number)
+Motion<Number> motion_of(const MovingQuery& query, const Make& number)
 {
-    Motion<Number> all{of_edges, {}};
+    Motion<Number> all{query.of_edges, {}};
     for (std::size_t k = 0; k < 4; ++k)
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto coordinate = [&](const Point& p) {
-                return number(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
-            };
-            const Number first = coordinate(from[k]);
-            all.at[k][axis].of = {first, coordinate(to[k]) - first, Number(0), Number(0)};
+            const Number first = number(query.from[k].*axes[axis]);
+            all.at[k][axis].of = {first, number(query.to[k].*axes[axis]) - first};
         }
     return all;
 }
 
-std::optional<double> touch(const std::array<Point, 4>& from, const std::array<Point, 4>& to,
-                            bool of_edges, Checked& checked)
+/// A coordinate is `mantissa` * 2^exponent.
+struct Parts {
+    int exponent = 0;
+    double mantissa;  ///< below 1, of 53 bits
+
+    explicit Parts(double x) : mantissa(std::frexp(x, &exponent)) {}
+};
+
+/// Returns the least and the largest exponent of 0 and the coordinates.
+std::pair<int, int> exponents(const MovingQuery& query)
 {
-    int least = 0;  // all coordinates are whole multiples of 2^least
-    for (const auto& four : {from, to})
-        for (const Point& p : four)
-            for (const float x : {p.x, p.y, p.z})
-                if (x != 0)
-                    least = std::min(least, std::ilogb(x) - 23);
-    const auto in_whole_numbers = [&] {
-        return motion_of<Whole>(from, to, of_edges,
-                                [&](float x) { return Whole(std::ldexp(double{x}, -least)); });
-    };
-    static std::mutex one_at_a_time;  // whole numbers share representations
+    std::pair<int, int> range = {0, 0};
+    for (const auto& four : {query.from, query.to})
+        for (const WidePoint& p : four)
+            for (const auto axis : axes) {
+                range.first = std::min(range.first, Parts(p.*axis).exponent);
+                range.second = std::max(range.second, Parts(p.*axis).exponent);
+            }
+    return range;
+}
+
+/// Returns the motion in multiples of a power of two.
+Motion<Whole> in_whole_numbers(const MovingQuery& query)
+{
+    return motion_of<Whole>(query, [least = exponents(query).first](double x) {
+        const Parts parts(x);
+        return Whole(std::ldexp(parts.mantissa, 53)) << (parts.exponent - least);
+    });
+}
+
+/// Returns the motion scaled by a power of two such that no product overflows. Rounding must be protected.
+Motion<Interval> in_intervals(const MovingQuery& query)
+{
+    const Interval scale = std::ldexp(1.0, -exponents(query).second);
+    return motion_of<Interval>(query, [&](double x) { return Interval(x) * scale; });
+}
+
+/// Returns when the features of a query touch first, to `finest`, nothing if they do not.
+std::optional<ImpactTime> impact_time(const MovingQuery& query, double finest, Checked& checked)
+{
+    std::optional<Areas<Interval>> near;
     {
         const CGAL::Protect_FPU_rounding<true> upwards;
-        const auto all =
-            motion_of<Interval>(from, to, of_edges, [](float x) { return Interval(x); });
-        Polynomial<Interval> volume = all.volume();
+        const Motion<Interval> all = in_intervals(query);
+        Polynomial<Interval, 3> volume = all.volume();
+        if (CGAL::certainly(SignDuring{{0, 1}}(volume) != CGAL::ZERO))
+            return std::nullopt;
+        near.emplace(all);
         Truth in_one_plane = volume.is_zero();
-        if (CGAL::is_indeterminate(in_one_plane)) {
-            const std::lock_guard lock(one_at_a_time);
-            in_one_plane = in_whole_numbers().volume().is_zero();
-        }
+        if (CGAL::is_indeterminate(in_one_plane) &&
+            CGAL::certainly_not(meet(*near, SignDuring{{0, 1}})))
+            return std::nullopt;
+        if (CGAL::is_indeterminate(in_one_plane))
+            in_one_plane = in_whole_numbers(query).volume().is_zero();
         if (CGAL::certainly(in_one_plane))
-            volume = {};
+            volume.of.fill(Interval(0));
         // Features in one plane touch from the first time on for a while, before which an interval or two remain undecided.
-        Search search{all, volume, CGAL::certainly(in_one_plane) ? 4 : 1};
+        Search search{volume, *near, finest, CGAL::certainly(in_one_plane) ? 4 : 1};
         const Truth touch = search.during(0, 1);
         if (CGAL::certainly_not(touch))
             return std::nullopt;
         if (CGAL::certainly(touch))
-            return search.no_later;
+            return ImpactTime{*search.no_sooner, search.no_later};
     }
     ++checked.by_roots;
-    const std::lock_guard lock(one_at_a_time);
-    return exact_touch(in_whole_numbers());
+    return first_touch(in_whole_numbers(query), &*near);
 }
 
+/// Calls work(k, ours) for each k below `count` on all cores; `ours` counts what is checked.
+template <class Work>
+void for_each(std::size_t count, Checked* checked, const Work& work)
+{
+    on_all_cores(count / at_once + 1, [&](std::size_t part) {
+        Checked ours;
+        for (std::size_t k = part * at_once; k < std::min(count, (part + 1) * at_once); ++k) {
+            work(k, ours);
+            ++ours.all;
+        }
+        if (checked != nullptr) {
+            checked->all += ours.all;
+            checked->by_roots += ours.by_roots;
+        }
+    });
+}
+
+WidePoint wide(Point p) { return {p.x, p.y, p.z}; }
+
 }  // namespace
+
+std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery> queries,
+                                                    Checked* checked)
+{
+    std::vector<std::optional<ImpactTime>> times(queries.size());
+    for_each(queries.size(), checked, [&](std::size_t k, Checked& ours) {
+        times[k] = impact_time(queries[k], precise, ours);
+    });
+    return times;
+}
+
+std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const MovingQuery> queries)
+{
+    std::vector<std::optional<ImpactTime>> times(queries.size());
+    for_each(queries.size(), nullptr, [&](std::size_t k, Checked&) {
+        times[k] = first_touch(in_whole_numbers(queries[k]), nullptr);
+    });
+    return times;
+}
 
 std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Point> end_points,
@@ -194,28 +195,19 @@ std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Pair> candidates, Checked* checked)
 {
     require_host_memory("checking the contacts between frames", candidates.size_bytes());
-    std::vector<std::vector<Impact>> parts((candidates.size() + pairs_at_once - 1) / pairs_at_once);
-    on_all_cores(parts.size(), [&](std::size_t k) {
-        const std::size_t first = k * pairs_at_once;
-        const auto part =
-            candidates.subspan(first, std::min(pairs_at_once, candidates.size() - first));
-        Checked ours{.all = part.size()};
-        for (const Pair pair : part) {
-            const Face a = faces[pair.a], b = faces[pair.b];
-            if (share_a_vertex(a, b))
-                continue;
-            const bool of_edges = b.b == b.c;
-            const auto vertices = [&](std::span<const Point> at) {
-                return of_edges ? std::array{at[a.a], at[a.b], at[b.a], at[b.b]}
-                                : std::array{at[a.a], at[b.a], at[b.b], at[b.c]};
-            };
-            if (const auto no_later = touch(vertices(points), vertices(end_points), of_edges, ours))
-                parts[k].push_back({pair, *no_later});
-        }
-        if (checked != nullptr) {
-            checked->all += ours.all;
-            checked->by_roots += ours.by_roots;
-        }
+    std::vector<std::vector<Impact>> parts(candidates.size() / at_once + 1);
+    for_each(candidates.size(), checked, [&](std::size_t k, Checked& ours) {
+        const Face a = faces[candidates[k].a], b = faces[candidates[k].b];
+        if (share_a_vertex(a, b))
+            return;
+        const bool of_edges = b.b == b.c;
+        const auto vertices = [&](std::span<const Point> at) {
+            return std::array{wide(at[a.a]), wide(at[of_edges ? a.b : b.a]),
+                              wide(at[of_edges ? b.a : b.b]), wide(at[of_edges ? b.b : b.c])};
+        };
+        const MovingQuery query{vertices(points), vertices(end_points), of_edges};
+        if (const auto time = impact_time(query, 1, ours))
+            parts[k / at_once].push_back({candidates[k], time->no_later});
     });
     std::vector<Impact> found;
     for (const std::vector<Impact>& part : parts)
