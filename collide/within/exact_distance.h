@@ -6,9 +6,7 @@
 namespace bvhbench {
 
 /// True if two triangles that do not meet are within `distance` of each other: exactly, in integers. Touching distances count.
-///
-/// They are if two corners are, or a corner and its foot inside an edge or inside a face, or two edges at their common perpendicular;
-/// what has no such foot or perpendicular, as a triangle without area, is as near as its parts are.
+/// They are if one of the ways of features.h is that short.
 bool parted_within(const Corners& a, const Corners& b, double distance);
 
 }  // namespace bvhbench

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace bvhbench {
@@ -13,7 +15,7 @@ public:
     Integer() = default;
 
     /// The double `value` in units of 2^unit, which must divide it.
-    Integer(double value, int unit) : is_negative_(value < 0)
+    explicit Integer(double value, int unit = 0) : is_negative_(value < 0)
     {
         int exponent = 0;
         auto digits =
@@ -29,6 +31,16 @@ public:
         for (const std::uint64_t word : {low, low >> 32, high})
             words_.push_back(static_cast<std::uint32_t>(word));
         trim();
+    }
+
+    /// Returns m and e: the number is m times 2^e, up to 2^-51 of it.
+    std::pair<double, int> rounded() const
+    {
+        double digits = 0;
+        const std::size_t used = std::min<std::size_t>(words_.size(), 3);
+        for (std::size_t k = 0; k < used; ++k)
+            digits = digits * 0x1p32 + words_[words_.size() - 1 - k];
+        return {is_negative_ ? -digits : digits, 32 * static_cast<int>(words_.size() - used)};
     }
 
     int sign() const { return words_.empty() ? 0 : is_negative_ ? -1 : 1; }

@@ -42,7 +42,9 @@ public:
         app.add_option("--json", json_, "write the result file");
         app.add_option("--pairs", pairs_,
                        "write the pairs of every frame: .csv, or of one frame .bin of 32-bit ids");
-        app.add_option("--contacts", contacts_, "the same of the pairs that intersect");
+        app.add_option(
+            "--contacts", contacts_,
+            "the same of the pairs that intersect; with --within, how far apart and where");
         app.add_flag("--containment", containment_,
                      "say which objects lie wholly inside a closed object, without a contact");
     }
@@ -57,7 +59,11 @@ public:
         Output json(json_, "--json", rules);
         ResultFile results(std::move(json), common.force, measured_facts(session, invocation.words),
                            watchdog::run_id());
-        PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept, task.swept);
+        PairsFile pairs_file(pairs, task.swept);
+        PairsFile contacts_file(contacts, task.swept,
+                                task.swept                          ? PairsFile::With::times
+                                : choice_.collider.within != "none" ? PairsFile::With::distances
+                                                                    : PairsFile::With::nothing);
         watchdog::resume_after_crash(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.end_of_run());

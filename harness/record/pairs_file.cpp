@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <utility>
+#include <vector>
 
+#include "collide/narrow/narrow.h"
+#include "collide/within/closest.h"
+#include "geometry/cores.h"
 #include "geometry/error.h"
 #include "scenes/face_order.h"
 
@@ -19,32 +24,47 @@ void check_pairs_path(const std::filesystem::path& path, const FrameRange& frame
                        "' would hold the pairs of several frames: choose one by --frames, or .csv");
 }
 
-PairsFile::PairsFile(const Output& output, bool is_swept, bool has_times)
-    : is_csv_(output.path().extension() == ".csv"), is_swept_(is_swept), has_times_(has_times)
+PairsFile::PairsFile(const Output& output, bool is_swept, With with)
+    : is_csv_(output.path().extension() == ".csv"), is_swept_(is_swept), with_(with)
 {
     if (output.is_nowhere())
         return;
     writer_.emplace(output);
-    if (is_csv_)
-        writer_->append(!is_swept    ? "frame,object_a,object_b,a,b\n"
-                        : !has_times ? "frame,a,b\n"
-                                     : "frame,a,b,time\n");
+    if (!is_csv_)
+        return;
+    writer_->append(is_swept ? "frame,a,b" : "frame,object_a,object_b,a,b");
+    writer_->append(with == With::times       ? ",time\n"
+                    : with == With::distances ? ",distance,ax,ay,az,bx,by,bz\n"
+                                              : "\n");
 }
 
 std::string PairsFile::lines(std::span<const Pair> pairs, std::span<const float> times,
-                             std::size_t frame) const
+                             std::span<const Point> points, std::size_t frame) const
 {
     std::string text;
+    const auto put = [&text](auto number) {
+        char digits[32];  // the shortest that are read as the same number
+        text += ',';
+        text.append(digits, std::to_chars(digits, std::end(digits), number).ptr);
+    };
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const Pair pair = pairs[k];
-        text += std::to_string(frame) + ',';
-        if (!is_swept_)
-            text += std::to_string(objects_[pair.a]) + ',' + std::to_string(objects_[pair.b]) + ',';
-        text += std::to_string(pair.a) + ',' + std::to_string(pair.b);
-        if (has_times_) {
-            char digits[32];  // the shortest that are read as the same float
-            text += ',';
-            text.append(digits, std::to_chars(digits, std::end(digits), times[k]).ptr);
+        text += std::to_string(frame);
+        if (!is_swept_) {
+            put(objects_[pair.a]);
+            put(objects_[pair.b]);
+        }
+        put(pair.a);
+        put(pair.b);
+        if (with_ == With::times)
+            put(times[k]);
+        if (with_ == With::distances) {
+            const Closest closest = closest_points(corners_of(points, faces_[pair.a]),
+                                                   corners_of(points, faces_[pair.b]));
+            put(closest.distance);
+            for (const Vector at : {closest.a, closest.b})
+                for (const double coordinate : {at.x, at.y, at.z})
+                    put(coordinate);
         }
         text += '\n';
     }
@@ -61,13 +81,27 @@ void PairsFile::add(const PairList& pairs, std::size_t frame, const Scene& scene
             {reinterpret_cast<const char*>(pairs.pairs().data()), pairs.pairs().size_bytes()});
         return;
     }
-    if (objects_.empty() && !is_swept_)
-        objects_ = objects_in_file(scene);
-    constexpr std::size_t at_once = 1 << 16;  // about 2 MB of text
-    for (std::size_t k = 0; k < pairs.size(); k += at_once) {
-        const std::size_t count = std::min(at_once, pairs.size() - k);
-        writer_->append(lines(pairs.pairs().subspan(k, count),
-                              has_times_ ? times.subspan(k, count) : times, frame));
+    if (std::exchange(scene_, &scene) != &scene) {
+        if (!is_swept_)
+            objects_ = objects_in_file(scene);
+        if (with_ == With::distances)
+            faces_ = faces_in_file(scene);
+    }
+    std::span<const Point> points;
+    if (with_ == With::distances)
+        points = scene.frames[scene.frames.size() > 1 ? frame : 0];
+    constexpr std::size_t of_part = 1 << 12, parts_at_once = 16;  // about 2 MB of text, or 10
+    for (std::size_t first = 0; first < pairs.size(); first += of_part * parts_at_once) {
+        std::vector<std::string> parts(parts_at_once);
+        on_all_cores(parts.size(), [&](std::size_t part) {
+            const std::size_t begin = std::min(pairs.size(), first + part * of_part);
+            const std::size_t count = std::min(of_part, pairs.size() - begin);
+            parts[part] =
+                lines(pairs.pairs().subspan(begin, count),
+                      with_ == With::times ? times.subspan(begin, count) : times, points, frame);
+        });
+        for (const std::string& part : parts)
+            writer_->append(part);
     }
 }
 

@@ -17,13 +17,17 @@ void check_pairs_path(const std::filesystem::path& path, const FrameRange& frame
 /// Writes the pairs of frames to a file, in canonical order, with the triangle and object numbers of the scene's file.
 ///
 /// A .csv file has the header frame,object_a,object_b,a,b and one line per pair. For swept boxes, which belong to no object, the
-/// header is frame,a,b and, with times of impact, frame,a,b,time. A .bin file holds one frame: two little-endian 32-bit ids per pair; its FNV-1a is the list's hash.
+/// header is frame,a,b and, with times of impact, frame,a,b,time. With distances, distance,ax,ay,az,bx,by,bz follow: those of
+/// closest_points. A .bin file holds one frame: two little-endian 32-bit ids per pair; its FNV-1a is the list's hash.
 class PairsFile {
 public:
-    /// Writes nothing if `output` has no file. All functions throw what Output::Writer throws.
-    PairsFile(const Output& output, bool is_swept, bool has_times = false);
+    /// What a line has of a pair beside its numbers.
+    enum class With { nothing, times, distances };
 
-    /// Appends a frame's pairs, with a time for each if the file has times. `scene` must be the same for all frames.
+    /// Writes nothing if `output` has no file. All functions throw what Output::Writer throws.
+    PairsFile(const Output& output, bool is_swept, With with = With::nothing);
+
+    /// Appends a frame's pairs, with a time for each if the file has times. `scene` has the frame.
     void add(const PairList& pairs, std::size_t frame, const Scene& scene,
              std::span<const float> times = {});
 
@@ -31,11 +35,13 @@ public:
 
 private:
     std::string lines(std::span<const Pair> pairs, std::span<const float> times,
-                      std::size_t frame) const;
+                      std::span<const Point> points, std::size_t frame) const;
 
-    bool is_csv_, is_swept_, has_times_;
-    /// Object of each triangle, by file numbers; empty until needed.
-    std::vector<std::int64_t> objects_;
+    bool is_csv_, is_swept_;
+    With with_;
+    const Scene* scene_ = nullptr;       ///< of the last frame
+    std::vector<std::int64_t> objects_;  ///< of each triangle, by file numbers
+    std::vector<Face> faces_;            ///< by file numbers, if distances are written
     std::optional<Output::Writer> writer_;
 };
 

@@ -43,6 +43,27 @@ struct Candidates {
     }
 };
 
+/// Tests of one class of pairs each. Skipped without CGAL, which they compare with.
+class OfAClass : public testing::TestWithParam<PairClass> {
+    void SetUp() override
+    {
+        if (!has_exact_reference)
+            GTEST_SKIP() << "built without CGAL: nothing is compared";
+    }
+};
+
+struct ClassName {
+    std::string operator()(const testing::TestParamInfo<PairClass>& of) const
+    {
+        std::string name = of.param.name;
+        std::ranges::replace_if(
+            name, [](char letter) { return letter == '^' || letter == '-'; }, '_');
+        return name;
+    }
+};
+
+inline const auto all_classes = testing::ValuesIn(pair_classes().begin(), pair_classes().end());
+
 /// Returns pairs of a class that share one to three indices, at any corners; some faces name an index twice.
 inline Mesh adjacent_pairs(const PairClass& of, uint count)
 {
