@@ -239,39 +239,6 @@ TEST_F(WithinDistance, IsThatOfEachPairOfFeatures)
         }
 }
 
-/// Returns the least double that is no less than the distance of two triangles, by bisection with the oracle.
-double least_distance(const Mesh& mesh)
-{
-    const Pair pair[] = {{0, 1}};
-    std::uint64_t low = 0, high = std::bit_cast<std::uint64_t>(1e40);
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        const bool is_within =
-            pairs_within(mesh.points, mesh.faces, pair, false, std::bit_cast<double>(middle))
-                .size() == 1;
-        (is_within ? high : low) = middle + (is_within ? 0 : 1);
-    }
-    return std::bit_cast<double>(low);
-}
-
-TEST_F(WithinDistance, IsExactForPairsThatAreHardToTell)
-{
-    constexpr uint of_each = 20;
-    for (const PairClass& of : pair_classes()) {
-        const Mesh all = apart_pairs(of, of_each, 5);
-        for (uint k = 0; k < of_each; ++k) {
-            const auto first = all.points.begin() + 6 * k;
-            const Mesh mesh = {std::vector<Point>(first, first + 6), {{0, 1, 2}, {3, 4, 5}}};
-            SCOPED_TRACE(of.name + ' ' + std::to_string(k));
-            const double least = least_distance(mesh);
-            EXPECT_TRUE(two_within(mesh, least));
-            if (least > 0) {
-                EXPECT_FALSE(two_within(mesh, std::nextafter(least, 0.0)));
-            }
-        }
-    }
-}
-
 TEST_F(WithinDistance, IsSeldomLeftToExactArithmetic)
 {
     Dice dice(4);
