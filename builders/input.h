@@ -30,7 +30,7 @@ struct Input {
     std::vector<MemoryShare> memory = {};  ///< Memory accounting of the buffers.
 
     uint triangle_count() const { return static_cast<uint>(device_faces.size()); }
-    bool is_swept() const { return !end_points.empty(); }
+    bool is_swept() const { return !end_points.empty() || device_end_points.size() > 0; }
 
     /// Returns the input swept from the points `low` to `high` of the device. Host points are not those: for builders and colliders of the
     /// device alone.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "collide/collider.h"
 #include "collide/counters.h"
+#include "collide/device_lists.h"
+#include "collide/narrow/narrow_words.h"
 #include "geometry/error.h"
 #include "library/tree.h"
 
@@ -46,26 +48,36 @@ const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::str
     return find_called(colliders, asked, "collider of the library");
 }
 
-Pairs Tree::Impl::found_by(Collider& from)
+Pairs Tree::Impl::found(DevicePairs pairs, std::uint64_t count)
 {
-    last_query = &from;
-    const DevicePairs found = from.device_pairs(device->queue);
-    static_assert(PAIRS_COUNT == 0);
-    return {.pairs = found.pairs.cl()(),
-            .device_count = found.counters.cl()(),
-            .count = from.counts(device->queue).pairs};
+    static_assert(PAIRS_COUNT == 0 && CONTACTS_COUNT == 0);
+    const auto& [found, number] = last_pairs.emplace(std::move(pairs), count);
+    return {.pairs = found.pairs.cl()(), .device_count = found.counters.cl()(), .count = number};
 }
 
-Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first)
+Pairs Tree::Impl::found_by(Collider& from)
 {
-    const ImplicitTree& over = standing("a query");
+    return found(from.device_pairs(device->queue), from.counts(device->queue).pairs);
+}
+
+Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first,
+                              std::optional<double> distance)
+{
+    const ImplicitTree& own = standing("a query");
     const bvhbench::Among wanted = internal(among);
-    filter.check(over.objects.size());
+    filter.check(own.objects.size());
     if (first && taker.are_boxes())
         throw BadUsage("boxes have overlaps but no contacts: the first contact is of triangles");
+    if (distance && taker.are_boxes())
+        throw BadUsage("boxes have overlaps but no distances: those are of triangles");
     begin();
+    std::optional<bvhbench::Input> wide;
+    if (distance)
+        wide = padded.build(*distance, taker.taken(), sizes);
     if (!first)
-        last_query = nullptr;
+        last_pairs.reset();
+    const ImplicitTree& over = distance ? padded.tree() : own;
+    const bvhbench::Input& input = distance ? *wide : taker.taken();
     Query& query = queries[static_cast<std::size_t>(among) + (first ? queries.size() / 2 : 0)];
     if (query.filter != filter)
         query = {};
@@ -77,8 +89,8 @@ Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first)
                                .filter = query.filter,
                                .first = first});
     if (!std::exchange(query.is_ready, false))  // set again on success
-        query.collider->reserve(&over, taker.taken());
-    bvhbench::find_pairs(*query.collider, &over, taker.taken(), device->queue);
+        query.collider->reserve(&over, input);
+    bvhbench::find_pairs(*query.collider, &over, input, device->queue);
     query.is_ready = true;
     return *query.collider;
 }
@@ -102,6 +114,16 @@ std::optional<Pair> Tree::first_contact(Among among, const Filter& filter)
     });
 }
 
+Pairs Tree::find_within(double distance, Among among, const Filter& filter)
+{
+    return as_call(*impl_->device, [=, &filter, &own = *impl_] {
+        Collider& asked = own.queried(among, internal(filter), false, distance);
+        auto [pairs, count] =
+            own.padded.decide(own.taker.taken(), asked.device_pairs(own.device->queue));
+        return own.found(std::move(pairs), count);
+    });
+}
+
 Pairs Tree::find_pairs(const Tree& other)
 {
     return as_call(*impl_->device, [&own = *impl_, &theirs = *other.impl_] {
@@ -110,7 +132,7 @@ Pairs Tree::find_pairs(const Tree& other)
             throw BadUsage("a query between trees wants both of one Device");
         const ImplicitTree& b = theirs.standing("a query between trees");
         own.begin();
-        own.last_query = nullptr;
+        own.last_pairs.reset();
         return own.found_by(own.joined.find_pairs(a, b));
     });
 }
@@ -119,11 +141,13 @@ std::vector<Pair> Tree::read_pairs() const
 {
     static_assert(sizeof(Pair) == sizeof(bvhbench::Pair));
     return as_call(*impl_->device, [&own = *impl_] {
-        if (own.last_query == nullptr)
+        if (!own.last_pairs)
             throw BadUsage("there are no pairs to read: nothing was queried since the last build");
         own.device->queue.join();
         std::vector<Pair> pairs;
-        for (const bvhbench::Pair pair : own.last_query->pairs(own.device->queue))
+        const auto& [found, count] = *own.last_pairs;
+        for (const bvhbench::Pair pair :
+             first_entries(found.pairs, count, own.device->queue, "the pairs"))
             pairs.push_back({pair.a, pair.b});
         return pairs;
     });

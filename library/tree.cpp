@@ -58,6 +58,7 @@ Tree::Impl::Impl(const std::shared_ptr<Device::Impl>& on, Options asked)
     , builder(make_builder(*device, options))
     , collider(collider_for(device->device, options.collider))
     , joined(*device, collider.make)
+    , padded(*device, options)
 {}
 
 void Tree::Impl::begin()
@@ -70,7 +71,7 @@ void Tree::Impl::renew(const Input& input, const std::function<void(const bvhben
 {
     begin();
     const ImplicitTree* const standing = std::exchange(tree, nullptr);
-    last_query = nullptr;
+    last_pairs.reset();
     const std::vector<uint> same = std::exchange(sizes, {});  // restored on success
     make(taker.take(input, same));
     sizes = same;
@@ -112,12 +113,13 @@ void Tree::build(const Input& input, std::span<const std::uint32_t> objects)
     as_call(*impl_->device, [&, &own = *impl_] {
         own.begin();
         own.tree = nullptr;
-        own.last_query = nullptr;
+        own.last_pairs.reset();
         const bvhbench::Input& taken = own.taker.take(input, objects);
         const std::vector<uint> wanted = object_sizes(taken);
         if (std::exchange(own.sizes, {}) != wanted) {
             for (Impl::Query& query : own.queries)  // freed before more is allocated
                 query = {};
+            own.padded.free();
             own.builder->reserve_objects(wanted);
         }
         own.tree = &dynamic_cast<const ImplicitTree&>(own.builder->build(taken, own.device->queue));
@@ -200,8 +202,8 @@ HostTree Tree::read() const
 std::size_t Tree::memory() const
 {
     return as_call(*impl_->device, [&own = *impl_] {
-        std::size_t bytes =
-            own.builder->reserved().total() + own.taker.memory() + own.joined.memory();
+        std::size_t bytes = own.builder->reserved().total() + own.taker.memory() +
+                            own.joined.memory() + own.padded.memory();
         for (const Impl::Query& query : own.queries)
             if (query.collider)
                 bytes += query.collider->reserved().total();

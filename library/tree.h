@@ -10,11 +10,13 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "builders/builder.h"
 #include "builders/implicit/tree.h"
 #include "collide/collider.h"
+#include "collide/within/within.h"
 #include "geometry/names.h"
 #include "library/input.h"
 
@@ -62,6 +64,35 @@ private:
     std::tuple<uint, uint, bool> reserved_for_ = {};
 };
 
+/// A tree over padded boxes, and the narrow phase that decides which of its pairs are within a distance. The first build takes memory,
+/// and one over another number of points.
+class PaddedTree {
+public:
+    PaddedTree(Device::Impl& device, const Options& options) : device_(device), options_(options) {}
+
+    /// Builds over triangles; `sizes` are those of the objects. Returns the padded input, for colliders. Throws BadUsage for a distance
+    /// that is negative or not finite.
+    bvhbench::Input build(double distance, const bvhbench::Input& input,
+                          const std::vector<uint>& sizes);
+
+    const ImplicitTree& tree() const { return *tree_; }  ///< The last build's.
+
+    /// Decides which candidates are within the distance. Returns them, and their number. Waits.
+    std::pair<DevicePairs, std::uint64_t> decide(const bvhbench::Input& input,
+                                                 const DevicePairs& candidates);
+
+    std::size_t memory() const;
+    void free();  ///< Frees all memory.
+
+private:
+    Device::Impl& device_;
+    const Options& options_;
+    std::unique_ptr<Builder> builder_;
+    std::optional<WithinPhase> phase_;
+    std::size_t points_ = 0;  ///< that memory is reserved for
+    const ImplicitTree* tree_ = nullptr;
+};
+
 struct Tree::Impl {
     Impl(const std::shared_ptr<Device::Impl>& on, Options asked);
 
@@ -74,10 +105,12 @@ struct Tree::Impl {
     /// Returns the current tree. Throws BadUsage, whose message begins with `what`, if there is none.
     const ImplicitTree& standing(const char* what) const;
 
-    /// Runs a query of the current tree, for pairs or up to the first contact.
-    Collider& queried(Among among, ObjectFilter filter, bool first);
+    /// Runs a query, for pairs or up to the first contact: of the current tree or, with a distance, of one over padded boxes.
+    Collider& queried(Among among, ObjectFilter filter, bool first,
+                      std::optional<double> distance = {});
 
-    /// Returns the pairs of the collider's last query, and remembers the collider for `read_pairs`.
+    /// Returns the pairs of a query, and remembers them for `read_pairs`.
+    Pairs found(DevicePairs pairs, std::uint64_t count);
     Pairs found_by(Collider& collider);
 
     std::shared_ptr<Device::Impl> device;  ///< declared first, so that it is destroyed last
@@ -95,7 +128,9 @@ struct Tree::Impl {
     };
     std::array<Query, 6> queries;  ///< by Among, for pairs, then up to the first contact
     JoinedTrees joined;
-    Collider* last_query = nullptr;  ///< holds the last query's pairs; null if there are none
+    PaddedTree padded;
+    /// The last query's pairs, and their number.
+    std::optional<std::pair<DevicePairs, std::uint64_t>> last_pairs;
 };
 
 }  // namespace bvhbench::oibvh

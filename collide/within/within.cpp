@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "collide/counters.h"
@@ -65,17 +66,22 @@ WithinPhase::WithinPhase(Programs& programs, const WithinOptions& options)
     , options_(options)
     , form_(chosen_form(programs.device(), options.form))
     , has_doubles_(has_doubles(programs.device()) && !options.without_doubles)
-    , reach_(reach_of(options.distance))
-    , low_(square_of(options.distance).first)
-    , high_(square_of(options.distance).second)
 {
-    if (!(options.distance >= 0 && std::isfinite(options.distance)))
-        throw BadUsage("a distance is a finite number that is not negative");
+    set_distance(options.distance);
     pad_ = programs.kernel("collide/within/pad.cl", "pad_points");
     if (has_doubles_)
         decide_ = programs.kernel("collide/within/within.cl", "decide_within",
                                   {{"RUN", form_ == KernelForm::chunks ? run_of_chunk : 1},
                                    {"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u}});
+}
+
+void WithinPhase::set_distance(double distance)
+{
+    if (!(distance >= 0 && std::isfinite(distance)))
+        throw BadUsage("a distance is a finite number that is not negative");
+    options_.distance = distance;
+    reach_ = reach_of(distance);
+    std::tie(low_, high_) = square_of(distance);
 }
 
 void WithinPhase::reserve(const Input& input)
@@ -154,11 +160,19 @@ void WithinPhase::decide_on_host(const Input& input, const DevicePairs& candidat
         return;
     const std::vector<Pair> left =
         first_entries(from.pairs, there, queue, "the candidates left to the host");
+    std::vector<Point> device_points;
+    std::vector<Face> device_faces;
+    if (input.points.empty()) {
+        device_points = input.device_points.download(queue.cl());
+        device_faces = input.device_faces.download(queue.cl());
+    }
+    const std::span<const Point> points = input.points.empty() ? device_points : input.points;
+    const std::span<const Face> faces = input.points.empty() ? device_faces : input.faces;
     std::vector<char> is_within(left.size());  // no bits: threads write them
     on_all_cores((left.size() + taken_at_once - 1) / taken_at_once, [&](std::size_t part) {
         const std::size_t end = std::min(left.size(), (part + 1) * taken_at_once);
         for (std::size_t k = part * taken_at_once; k < end; ++k)
-            is_within[k] = are_within(input.points, input.faces, left[k], options_) ? 1 : 0;
+            is_within[k] = are_within(points, faces, left[k], options_) ? 1 : 0;
     });
     std::vector<Pair> more;
     for (std::size_t k = 0; k < left.size(); ++k)

@@ -42,6 +42,9 @@ public:
     /// Throws BadUsage for a distance that is negative or not finite.
     WithinPhase(Programs& programs, const WithinOptions& options);
 
+    /// Changes the distance of the queries from here on. Throws BadUsage as the constructor.
+    void set_distance(double distance);
+
     /// Reserves memory for frames like `input`: same faces, any points. Never timed. Throws Unavailable.
     void reserve(const Input& input);
 
@@ -53,7 +56,7 @@ public:
     Input padded(const Input& input, Queue& queue);
 
     /// Enqueues the stages `narrow` and `exact` over pairs of padded boxes, in any order. Candidates beyond their list are not tested, so
-    /// complete the broad phase first. Blocks.
+    /// complete the broad phase first. Reads the device's points and faces if the host has none. Blocks.
     void query(const Input& input, const DevicePairs& candidates, Queue& queue);
 
     /// True if every list of the last query was large enough; otherwise enlarges them. Blocks.
@@ -63,6 +66,9 @@ public:
     WithinCounts counts(const Queue& queue) const;
     std::vector<Pair> pairs(const Queue& queue) const;
 
+    /// The same pairs in device memory; their number is at CONTACTS_COUNT of the counters.
+    DevicePairs device_pairs() const { return {pairs_, counters_}; }
+
 private:
     void take_lists();
     void decide_on_host(const Input& input, const DevicePairs& candidates, const Queue& queue);
@@ -71,8 +77,8 @@ private:
     WithinOptions options_;
     KernelForm form_;
     bool has_doubles_;
-    float reach_;        ///< of padding, to each side
-    double low_, high_;  ///< around the square of the distance
+    float reach_ = 0;            ///< of padding, to each side
+    double low_ = 0, high_ = 0;  ///< around the square of the distance
     cl::Kernel pad_, decide_;
     std::size_t room_ = 0, unsure_room_ = 0;
     std::optional<Arena> arena_, lists_;

@@ -37,6 +37,8 @@ public:
         const oibvh::Update updates[] = {oibvh::Update::keep, oibvh::Update::rebuild};
         tree_->update(triangles_, updates);
         found.push_back(query());
+        tree_->find_within(0.1);
+        found.push_back(pair_list(tree_->read_pairs()));
         tree_->build(triangles_);
         other_->build(oibvh::HostBoxes{boxes_});
         tree_->find_pairs(*other_);

@@ -72,33 +72,6 @@ TEST_F(LibraryPairs, GetRoomWhenTheyAreMore)
     }
 }
 
-/// Three overlapping triangle soups of 1, 300 and 77 triangles.
-struct ThreeObjects {
-    std::vector<std::uint32_t> sizes = {1, 300, 77};
-    LibraryMesh mesh;
-
-    ThreeObjects()
-    {
-        for (const std::uint32_t size : sizes) {
-            const LibraryMesh own = soup_mesh(size, size);
-            for (const oibvh::Face face : own.faces) {
-                const auto shift = static_cast<std::uint32_t>(mesh.points.size());
-                mesh.faces.push_back({face.a + shift, face.b + shift, face.c + shift});
-            }
-            mesh.points.insert(mesh.points.end(), own.points.begin(), own.points.end());
-        }
-    }
-
-    std::vector<FaceRange> ranges() const { return {{0, 1}, {1, 300}, {301, 77}}; }
-    void move(std::size_t object, float by)
-    {
-        const FaceRange range = ranges()[object];
-        for (std::size_t k = 3 * range.first; k < 3 * (std::size_t{range.first} + range.count); ++k)
-            mesh.points[k].x += by * static_cast<float>(k % 7);
-    }
-    PairList right(Among among) const { return among_objects(swept_pairs(mesh), ranges(), among); }
-};
-
 void expect_right(oibvh::Tree& tree, const Caller& caller, const ThreeObjects& objects,
                   const std::string& what)
 {

@@ -182,17 +182,48 @@ inline PairList swept_pairs(const LibraryMesh& mesh, bool keep_adjacent = true)
     return touching_pairs(own.points, own.faces, keep_adjacent);
 }
 
-/// Runs a query and returns its pairs. Expects the host's count, the device's count and both lists of pairs to agree.
-inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
-                            oibvh::Among among = oibvh::Among::all)
+/// Three overlapping triangle soups of 1, 300 and 77 triangles.
+struct ThreeObjects {
+    std::vector<std::uint32_t> sizes = {1, 300, 77};
+    LibraryMesh mesh;
+
+    ThreeObjects()
+    {
+        for (const std::uint32_t size : sizes) {
+            const LibraryMesh own = soup_mesh(size, size);
+            for (const oibvh::Face face : own.faces) {
+                const auto shift = static_cast<std::uint32_t>(mesh.points.size());
+                mesh.faces.push_back({face.a + shift, face.b + shift, face.c + shift});
+            }
+            mesh.points.insert(mesh.points.end(), own.points.begin(), own.points.end());
+        }
+    }
+
+    std::vector<FaceRange> ranges() const { return {{0, 1}, {1, 300}, {301, 77}}; }
+    void move(std::size_t object, float by)
+    {
+        const FaceRange range = ranges()[object];
+        for (std::size_t k = 3 * range.first; k < 3 * (std::size_t{range.first} + range.count); ++k)
+            mesh.points[k].x += by * static_cast<float>(k % 7);
+    }
+    PairList right(Among among) const { return among_objects(swept_pairs(mesh), ranges(), among); }
+};
+
+/// Returns the pairs of a tree's last query. Expects the host's count, the device's count and both lists of pairs to agree.
+inline PairList listed(const oibvh::Tree& tree, const Caller& caller, const oibvh::Pairs& found)
 {
-    const oibvh::Pairs found = tree.find_pairs(among);
     const auto counts = caller.values_of<cl_uint>(found.device_count, 2);
     EXPECT_EQ(counts[0] | std::uint64_t{counts[1]} << 32, found.count);
     const std::vector<oibvh::Pair> pairs = tree.read_pairs();
     EXPECT_EQ(pairs.size(), found.count);
     EXPECT_EQ(pairs, caller.values_of<oibvh::Pair>(found.pairs, pairs.size()));
     return pair_list(pairs);
+}
+
+inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
+                            oibvh::Among among = oibvh::Among::all)
+{
+    return listed(tree, caller, tree.find_pairs(among));
 }
 
 class OfACaller : public testing::Test {

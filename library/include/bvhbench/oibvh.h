@@ -112,7 +112,8 @@ struct DeviceOptions {
 
 /// Times of one stage of a call, from the device's clock.
 struct Stage {
-    /// input, check, bounds, codes, sort, order, gather, hierarchy, refit, join or broad.
+    /// input, check, bounds, codes, sort, order, gather, hierarchy, refit, join, broad,
+    /// pad, narrow or exact.
     std::string name;
     int launches = 0;          ///< number of commands enqueued
     std::int64_t busy_ns = 0;  ///< sum of the commands' run times
@@ -281,6 +282,14 @@ public:
     /// what they share. Ends at the first contact, by `leaf`, whatever the tree's collider. Waits. Throws as find_pairs, and
     /// BadInput if the tree is over boxes. The pairs of the last find_pairs can still be read.
     std::optional<Pair> first_contact(Among among = Among::all, const Filter& filter = {});
+
+    /// Finds all pairs of triangles at most `distance` apart, in the unit of the points: exactly, for the coordinates as floats and the
+    /// distance as a double, and 0 has those that touch or intersect. Options::adjacent_pairs tells whether triangles that share a
+    /// point index, which are 0 apart, are among them. Each call builds a second tree, over boxes with half of the distance to all sides
+    /// of each point, in memory that is kept for the next call: it costs a build and a query. The host decides pairs that doubles leave
+    /// open, or all candidates if the device has no doubles, and reads points and faces for that. Waits. Throws as find_pairs, and
+    /// BadInput if the tree is over boxes and for a distance that is negative or not finite.
+    Pairs find_within(double distance, Among among = Among::all, const Filter& filter = {});
 
     /// Copies the pairs of the last query to the host. Waits. Throws BadInput if there was no query since the last build,
     /// refit or update.
