@@ -91,15 +91,16 @@ Method method_of(const Json& entry)
     method.queries = truth_at(entry, "query");
     method.has_tree = truth_at(entry, "tree");
     method.finds_contacts = truth_at(entry, "finds_contacts");
+    method.answers = truth_at(entry, "answer");
     if (method.queries && !truth_at(entry, "pairs"))
         throw Unavailable("its method " + method.name +
                           " has `query` without `pairs`, by which a query is judged");
     if (method.refits && !method.builds)
         throw Unavailable("its method " + method.name + " has `refit` without `build`");
-    if (!method.is_builder() && !method.queries)
+    if (!method.is_builder() && !method.queries && !method.answers)
         throw Unavailable("its method " + method.name +
                           " cannot be judged: it has neither `build` with `tree` nor `query` with "
-                          "`pairs`");
+                          "`pairs` nor `answer` with `times`");
     return method;
 }
 

@@ -23,7 +23,7 @@ namespace bvhbench::outside {
 
 using Json = nlohmann::json;
 
-constexpr unsigned protocol = BVHBENCH_PLUGIN_ABI;  ///< its version, that of the interface in C
+constexpr unsigned protocol = 1;  ///< its version
 
 /// A method from outside, as it describes itself.
 struct Method {
@@ -33,6 +33,7 @@ struct Method {
     bool queries = false;  ///< finds pairs
     bool has_tree = false;
     bool finds_contacts = false;
+    bool answers = false;  ///< single queries of moving points
 
     bool is_builder() const { return builds && has_tree; }
 };

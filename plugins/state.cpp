@@ -53,12 +53,26 @@ constexpr std::int64_t short_build_ns = 10'000'000;
 
 }  // namespace
 
-void State::start(const Input& input)
+void State::start()
 {
     process_.reset();  // frees its memory first
     last_build_ns_ = INT64_MAX;
     process_ = std::make_unique<Process>(library_, limits_);
     process_->ask({{"call", "create"}, {"method", method_.name}});
+}
+
+void State::measure_round_trip()
+{
+    for (int k = 0; k < round_trips; ++k) {
+        bytes();
+        const std::int64_t ns = process_->wall_ns();
+        round_trip_ns_ = k == 0 ? ns : std::min(round_trip_ns_, ns);
+    }
+}
+
+void State::take_mesh(const Input& input)
+{
+    start();
     const MemoryFile file(bytes_of(input.faces));
     process_->ask({{"call", "prepare"},
                    {"vertices", input.points.size()},
@@ -66,11 +80,25 @@ void State::start(const Input& input)
                    {"faces", file.path()}});
     faces_.assign(input.faces.begin(), input.faces.end());
     points_.clear();
-    for (int k = 0; k < round_trips; ++k) {
-        bytes();
-        const std::int64_t ns = process_->wall_ns();
-        round_trip_ns_ = k == 0 ? ns : std::min(round_trip_ns_, ns);
-    }
+    measure_round_trip();
+}
+
+void State::send_queries(std::span<const MovingQuery> queries)
+{
+    std::vector<double> all;
+    all.reserve(24 * queries.size());
+    for (const MovingQuery& query : queries)
+        for (const auto& points : {query.from, query.to})
+            for (const WidePoint& p : points)
+                all.insert(all.end(), {p.x, p.y, p.z});
+    start();
+    const MemoryFile file(bytes_of(std::span<const double>(all)));
+    process_->ask({{"call", "queries"},
+                   {"count", queries.size()},
+                   {"of_edges", queries.front().of_edges},
+                   {"points", file.path()}});
+    queries_ = queries.size();
+    measure_round_trip();
 }
 
 bool State::send_frame(const Input& input)
@@ -80,7 +108,7 @@ bool State::send_frame(const Input& input)
                        " knows no swept boxes");
     if (process_ == nullptr || !are_equal(faces_, input.faces) ||
         (!points_.empty() && points_.size() != input.points.size()))
-        start(input);
+        take_mesh(input);
     if (!points_.empty() && are_equal(points_, input.points))
         return false;
     const MemoryFile file(bytes_of(input.points));
@@ -122,6 +150,13 @@ HostTree State::tree()
             values_in<std::uint32_t>(entries, number_at(reply, "entries", most_values), "entries"),
             points_, faces_);
     });
+}
+
+std::vector<double> State::times()
+{
+    const MemoryFile file;
+    process_->ask({{"call", "times"}, {"times", file.path()}});
+    return process_->reading([&] { return values_in<double>(file, queries_, "times"); });
 }
 
 std::uint64_t State::bytes()

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builders/input.h"
+#include "geometry/moving_query.h"
 #include "plugins/process.h"
 
 namespace bvhbench::outside {
@@ -24,13 +25,17 @@ public:
     /// one. Not timed.
     bool send_frame(const Input& input);
 
-    /// Runs `build`, `refit` or `query`, and adds its stages and the time of the call to the queue. After a pause, in which others are
+    /// Starts the process and gives it queries, all of a vertex and a face or all of two edges. Not timed.
+    void send_queries(std::span<const MovingQuery> queries);
+
+    /// Runs `build`, `refit`, `query` or `answer`, and adds its stages and the time of the call to the queue. After a pause, in which others are
     /// sampled, allocations of a library take up to twice as long as in a loop of its own: a short build runs once before, untimed.
     void run(std::string_view call, Queue& queue);
 
     /// Results of the last calls. Not timed.
     std::vector<Pair> pairs();
     HostTree tree();
+    std::vector<double> times();
 
     /// Returns the bytes that it says it holds; 0 before the first frame. Throws if they are more than allowed.
     std::uint64_t bytes();
@@ -42,7 +47,9 @@ public:
     void reset() { process_.reset(); }
 
 private:
-    void start(const Input& input);
+    void start();
+    void measure_round_trip();
+    void take_mesh(const Input& input);
 
     const Library& library_;
     const Method& method_;
@@ -50,6 +57,7 @@ private:
     std::unique_ptr<Process> process_;
     std::vector<Face> faces_;    ///< of the process's mesh
     std::vector<Point> points_;  ///< of its frame; empty: none
+    std::size_t queries_ = 0;    ///< number of its queries of moving points
     std::int64_t round_trip_ns_ = 0;
     std::int64_t last_build_ns_ =
         INT64_MAX;  ///< the first build, which compiles, has none before it

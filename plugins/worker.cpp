@@ -96,6 +96,12 @@ public:
             return pairs(request);
         if (call == "tree")
             return tree(request);
+        if (call == "queries")
+            return load_queries(request);
+        if (call == "answer")
+            return timed(method_->answer);
+        if (call == "times")
+            return times(request);
         if (call == "bytes")
             return {{"ok", true},
                     {"bytes", method_->bytes == nullptr ? 0 : method_->bytes(state_)}};
@@ -116,9 +122,11 @@ private:
         for (std::uint32_t k = 0; k < plugin_->method_count; ++k) {
             const bvhbench_method& method = plugin_->methods[k];
             const std::string name = text_of(method.name, "name");
+            const bool answers = method.load_queries != nullptr && method.answer != nullptr &&
+                                 method.times != nullptr;
             for (const auto& [call, is_there] : {std::pair("create", method.create != nullptr),
-                                                 {"prepare", method.prepare != nullptr},
-                                                 {"load", method.load != nullptr},
+                                                 {"prepare", answers || method.prepare != nullptr},
+                                                 {"load", answers || method.load != nullptr},
                                                  {"error", method.error != nullptr},
                                                  {"destroy", method.destroy != nullptr}})
                 if (!is_there)
@@ -130,10 +138,11 @@ private:
                                {"query", method.query != nullptr},
                                {"pairs", method.pairs != nullptr},
                                {"tree", method.tree != nullptr},
+                               {"answer", answers},
                                {"finds_contacts", method.finds_contacts != 0}});
         }
         return {{"ok", true},
-                {"protocol", plugin_->abi},
+                {"protocol", protocol},
                 {"library", text_of(plugin_->library, "library")},
                 {"version", text_of(plugin_->version, "version")},
                 {"licence", text_of(plugin_->licence, "licence")},
@@ -183,6 +192,25 @@ private:
         return {{"ok", true}};
     }
 
+    Json load_queries(const Json& request)
+    {
+        if (method_->load_queries == nullptr)
+            throw Unavailable("its method lacks this call");
+        points_ = file_bytes(request.at("points").get<std::string>());
+        queries_ = {request.at("count").get<std::uint64_t>(),
+                    request.at("of_edges").get<bool>() ? 1u : 0u, values_in<double>(points_)};
+        require_success(method_->load_queries(state_, &queries_));
+        return {{"ok", true}};
+    }
+
+    Json times(const Json& request)
+    {
+        const double* times = nullptr;
+        require_success(method_->times(state_, &times));
+        write_array(request, "times", times, queries_.count);
+        return {{"ok", true}};
+    }
+
     Json timed(int (*call)(void*, bvhbench_stages*))
     {
         if (call == nullptr)
@@ -229,6 +257,7 @@ private:
     const bvhbench_method* method_ = nullptr;
     void* state_ = nullptr;
     std::string faces_, points_;
+    bvhbench_queries queries_ = {};
 };
 
 std::string line_of(const Json& reply)

@@ -165,8 +165,13 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
         scene.folder.clear();  // its triangles or frames differ
         return scene;
     }
-    if (const ManifestEntry* const entry = manifest_entry(text))
+    if (const ManifestEntry* const entry = manifest_entry(text)) {
+        if (entry->kind == ManifestEntry::Kind::queries)
+            throw BadUsage(std::string(text) +
+                           " is no scene but queries of moving points, which "
+                           "`accuracy --axis queries` takes");
         return from_data_set(*entry, library);
+    }
     if (std::optional<Scene> scene = generated(text))
         return *std::move(scene);
     if (looks_like_path(text))

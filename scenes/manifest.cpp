@@ -2,6 +2,7 @@
 #include "scenes/manifest.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "geometry/names.h"
@@ -46,13 +47,15 @@ std::size_t count(const std::string& field)
 ManifestEntry parse_entry(std::string_view line)
 {
     const std::vector<std::string> field = split(line, '\t');
-    if (field.size() != 13 || (field[1] != "mesh" && field[1] != "frames"))
+    constexpr std::array<std::string_view, 3> kinds = {"mesh", "frames", "queries"};
+    const auto kind = field.size() == 13 ? std::ranges::find(kinds, field[1]) : kinds.end();
+    if (kind == kinds.end())
         throw std::logic_error("scenes/manifest.tsv has a line like " + in_quotes(line));
     ManifestEntry entry;
     entry.name = field[0];
     entry.triangles = count(field[2]);
     entry.stand_ins = list(field[9]);
-    entry.is_frames = field[1] == "frames";
+    entry.kind = static_cast<ManifestEntry::Kind>(kind - kinds.begin());
     entry.vertices = count(field[3]);
     entry.objects = count(field[4]);
     entry.frames = count(field[5]);
@@ -97,8 +100,9 @@ std::filesystem::path located(const ManifestEntry& entry, const std::filesystem:
     std::error_code error;
     for (const std::filesystem::path file : entry.files)
         for (const auto& path : {data / file, data / file.filename()})
-            if (entry.is_frames ? std::filesystem::is_directory(path, error)
-                                : std::filesystem::is_regular_file(path, error))
+            if (entry.kind == ManifestEntry::Kind::mesh
+                    ? std::filesystem::is_regular_file(path, error)
+                    : std::filesystem::is_directory(path, error))
                 return path;
     return {};
 }

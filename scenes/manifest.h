@@ -20,7 +20,11 @@ class OtherCounts : public Unavailable {
 struct ManifestEntry {
     std::string name;
     std::size_t triangles = 0;
-    bool is_frames = false;  ///< true: a folder of frames; false: one mesh file
+    enum class Kind {
+        mesh,     ///< one mesh file
+        frames,   ///< a folder of frames
+        queries,  ///< a folder of moving_queries.h, which is no scene
+    } kind = Kind::mesh;
     std::size_t vertices = 0;
     std::size_t objects = 0;
     std::size_t frames = 0;

@@ -44,6 +44,10 @@ constexpr Axis catalog[] = {
      "what does a smaller tolerance of the narrow phase between two frames take, and which false "
      "pairs does it save",
      measure_impacts},
+    {"queries",
+     "which continuous collision detection misses which single queries, what it takes, and how far "
+     "its times are before the right ones",
+     measure_queries},
 };
 
 /// Returns up to `most` of the numbers below `count`, the first and the last among them.

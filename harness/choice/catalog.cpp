@@ -271,13 +271,20 @@ void add_broken_outside(const std::string& why)
 
 bool has_outside() { return !outside_entries().libraries.empty(); }
 
+std::vector<const outside::Offer*> outside_answers()
+{
+    std::vector<const outside::Offer*> found;
+    for (const outside::Offer& offer : outside_entries().offers)
+        if (offer.method.answers)
+            found.push_back(&offer);
+    return found;
+}
+
 const outside::Library* outside_library(std::string_view name)
 {
-    const Outside& all = outside_entries();
-    if (const auto* entry = find_name(all.colliders, name); entry && entry->outside)
-        return &entry->outside->library;
-    if (const auto* entry = find_name(all.builders, name); entry && entry->outside)
-        return &entry->outside->library;
+    for (const outside::Offer& offer : outside_entries().offers)
+        if (name == offer.method.name || name == offer.method.name + "-refit")
+            return &offer.library;
     return nullptr;
 }
 

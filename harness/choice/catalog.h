@@ -133,7 +133,10 @@ void add_broken_outside(const std::string& why);
 /// True if the catalogs have a method from outside.
 bool has_outside();
 
-/// Returns the library of the builder or collider `name` from outside; nullptr if it is none.
+/// Returns the methods from outside that answer single queries of moving points.
+std::vector<const outside::Offer*> outside_answers();
+
+/// Returns the library of the method `name` from outside; nullptr if it is none.
 const outside::Library* outside_library(std::string_view name);
 
 }  // namespace bvhbench

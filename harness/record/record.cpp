@@ -111,7 +111,7 @@ std::string cell_text(const Cell& cell)
         options.update(choices_json({.collider = cell.collider}, Choice::Of::collider));
         json["collider"] = {{"name", cell.collider.name}, {"options", std::move(options)}};
     }
-    for (const std::string& name : {cell.builder.name, cell.collider.name})
+    for (const std::string& name : {cell.builder.name, cell.collider.name, cell.accuracy.method})
         if (const outside::Library* library = outside_library(name))
             json["outside"] = {{"name", name},
                                {"library", library->name},

@@ -120,5 +120,23 @@ def frames(cells: list[Cell]) -> str:
     return table.text()
 
 
+def queries(cells: list[Cell]) -> str:
+    """Returns one line for each set of queries and method, and one for each method over all sets of a kind."""
+    titles = ("<queries", "<method", "number", "touch", "missed", "false", "late", "median gap", "99 %", "mean loss", "cut short", "ns/query")
+    return lines(cells, titles, lambda cell: [
+        *must(cell, "queries_count", "touching_count", "missed_count", "false_count", "late_count"),
+        *(f"{cell.counters[key]:.1e}" for key in ("gap_median", "gap_99_percent", "shortened_mean")), whole(cell.counters.get("cut_short_count")),
+        f"{spread.ratio(cell.median_ns(), cell.counters['queries_count'] * cell.counters['copies_count']):.0f}"]) + "".join(
+            f"{method}, {kind}: {sums['missed_count']:,} missed, {sums['late_count']:,} late and {sums['false_count']:,} false of "
+            f"{sums['queries_count']:,} queries\n" for (method, kind), sums in sums_of_queries(cells).items())
+
+
+def sums_of_queries(cells: list[Cell]) -> dict[tuple[str, str], dict[str, int]]:
+    measured = (cell for cell in cells if cell.status == "measured")
+    by_kind = grouped(measured, lambda cell: (cell.accuracy["method"], cell.scene_facts["name"].split("/")[-1].split()[0]))
+    return {name: {key: int(sum(cell.counters[key] for cell in own)) for key in ("missed_count", "late_count", "false_count", "queries_count")}
+            for name, own in by_kind.items()}
+
+
 AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "boxes": boxes,
-                                                "frames": frames}
+                                                "frames": frames, "queries": queries}

@@ -5,8 +5,9 @@ numbers. sums: a panel a scene, a point a way to add areas up. codes: a panel a 
 which is the fastest of build and k queries. input: how many pairs of boxes, and what a frame takes, by how far from the
 origin the scene is. boxes: a panel a scene, a point a format, larger the more bytes a box takes. swept: as
 swept_bars.py. frames: a panel a scene, a point a setting, false contacts above and missed ones below. impacts: a panel
-a scene and query, a point a tolerance. In sums, codes, boxes and impacts left and down is better; the grey line joins
-what no other method is as good as in both time and error (the Pareto front), and those points are filled.
+a scene and query, a point a tolerance. queries: a column a kind of queries, false ones above and what a step loses
+below. In sums, codes, boxes, impacts and queries left and down is better; the grey line joins what no other method is as
+good as in both time and error (the Pareto front), and those points are filled.
 """
 import functools
 import math
@@ -15,7 +16,7 @@ from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
 
-from ..draw import figure
+from ..draw import figure, style
 from ..read import results
 from . import accuracy_frames, accuracy_narrow, swept_bars
 from .accuracy_points import METHODS, Point, by_input, draw_points, from_zero, legend, log_times, look, median_s
@@ -203,11 +204,48 @@ def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
+def kind_of(cell: results.Cell) -> str:
+    """Returns the data set of queries, if it is one, and their kind: "ccd_wang2021, edge-edge"."""
+    *of, _, kind = cell.scene.split("/")
+    return ", ".join([*of, kind.split()[0]])
+
+
+def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    """Draws a column a kind of queries; a method that misses a touch, or says it later than it is, is on no front."""
+    kinds = results.grouped(cells, kind_of)
+    drawing, rows = figure.grid(2, len(kinds), 5.2, sharey="row", sharex="col")
+    counted = {kind: [(method, {key: sum(cell.counters[key] for cell in own) for key in ("queries_count", "touching_count", "missed_count", "late_count", "false_count")},
+                       sum(1e9 * median_s(cell) / cell.counters["copies_count"] for cell in own),
+                       sum(cell.counters["shortened_mean"] * cell.counters["queries_count"] for cell in own))
+                      for method, own in results.grouped(group, lambda cell: cell.accuracy["method"]).items()] for kind, group in kinds.items()}
+    for row, name in enumerate(("false, of those apart", "loss of a step, mean")):
+        panels = {kind: [Point(time / count["queries_count"], loss / count["queries_count"] if row else
+                               count["false_count"] / max(1, count["queries_count"] - count["touching_count"]), method)
+                         for method, count, time, loss in those] for kind, those in counted.items()}
+        from_zero(rows[row][0].yaxis, [point.error for points in panels.values() for point in points], 1e-4, 1e-3, lambda share: f"{share:.0e}", 6)
+        rows[row][0].set_ylabel(name)
+        for axes, (kind, points) in zip(rows[row], panels.items(), strict=True):
+            unsafe = [", ".join(f"{count[key]:,} {word}" for key, word in (("missed_count", "missed"), ("late_count", "late")) if count[key])
+                      for _, count, _, _ in counted[kind]]
+            log_times(axes, points, 4)
+            draw_points(axes, "queries", points, [point for point, words in zip(points, unsafe, strict=True) if not words])
+            for point, words in zip(points, unsafe, strict=True):
+                if words and row == 0:
+                    axes.annotate(words, point[:2], (5, -2), textcoords="offset points", fontsize=style.SMALL)
+            (axes.set_xlabel if row else lambda title: axes.set_title(title, loc="left", fontsize=6.5))(
+                "ns a query" if row else f"{kind}\n{counted[kind][0][1]['queries_count']:,} queries, {counted[kind][0][1]['touching_count']:,} touch")
+    figure.footer(drawing, run, "accuracy", (
+        "Queries of continuous collision detection in doubles, against CGAL's exact times. Left and down is better. Filled, joined: no other "
+        "method is as good in both, of those that miss no touch and are never late. Loss: from the time found to the right one, or to the end of the step if nothing touches. "
+        "Times: medians.",), legend(drawing, "queries", cells, 5))
+    return drawing
+
+
 # The figures of each axis, by the name of the picture.
 FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
            "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
            "swept": {"swept": functools.partial(swept_bars.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw},
-           "impacts": {"impacts": draw_impacts}}
+           "impacts": {"impacts": draw_impacts}, "queries": {"queries": draw_queries}}
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:

@@ -34,6 +34,9 @@ METHODS = {
               | {f"input {bits} bits": Look("#D55E00", marker) for bits, marker in ((20, "^"), (16, "s"), (12, "D"), (8, "o"))}
               | {"all coarse": Look("#CC79A7", "P")},
     "impacts": {"ccd-1e-2": Look("#D55E00", "v"), "ccd-1e-4": Look("#E69F00", "s"), "ccd-1e-6": Look("#0072B2", "o")},
+    "queries": {f"ccd-f32-1e-{digits}": Look("#56B4E9", marker) for digits, marker in ((2, "v"), (4, "s"), (6, "o"))}
+               | {f"ccd-f64-1e-{digits}": Look("#0072B2", marker) for digits, marker in ((2, "v"), (4, "s"), (6, "o"), (10, "D"))}
+               | {"additive-f64": Look("#009E73", "^"), "roots-f64-1e-6": Look("#D55E00", "o"), "roots-f64-1e-10": Look("#D55E00", "D")},
 }
 
 
@@ -43,7 +46,12 @@ class Point(NamedTuple):
     method: str
 
 
+OUTSIDE = Look("#000000", "*")  # of methods from outside, which answer single queries
+
+
 def look(axis: str, method: str) -> Look:
+    if axis == "queries" and method not in METHODS[axis]:
+        return OUTSIDE
     if method not in METHODS[axis]:
         raise results.Refused(f"plots/figures/accuracy_points.py has no look for the method '{method}' of {axis}: add a line to METHODS")
     return METHODS[axis][method]
@@ -57,8 +65,9 @@ def median_s(cell: results.Cell, stage: str = "") -> float:
     return results.median(cell.times_s(stage))
 
 
-def draw_points(axes: plt.Axes, axis: str, points: list[Point]) -> None:
-    best = pareto.front(points)
+def draw_points(axes: plt.Axes, axis: str, points: list[Point], on_front: list[Point] | None = None) -> None:
+    """Draws points, and the front of all or of those that may be on it."""
+    best = pareto.front(points if on_front is None else on_front)
     figure.scatter(axes, points, best, lambda point: look(axis, point.method),
                    lambda is_best: {"clip_on": False, "zorder": 4 if is_best else 3})
 
@@ -86,5 +95,5 @@ def from_zero(axis: Axis, errors: list[float], least: float, most: float, text: 
 def legend(drawing: plt.Figure, axis: str, cells: list[results.Cell], columns: int) -> float:
     there = {cell.accuracy["method"] for cell in cells}
     handles = [Line2D([], [], color=seen.colour, marker=seen.marker, linestyle="none", label=name)
-               for name, seen in METHODS[axis].items() if name in there]
+               for name, seen in [*METHODS[axis].items(), *((name, OUTSIDE) for name in sorted(there - METHODS[axis].keys()))] if name in there]
     return figure.legend_above(drawing, handles, columns)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * A plug-in for tests: a tree that halves the triangles in their given order, and all pairs by comparing every two boxes. It is
- * right, unless its file is called fault-NAME.so, where NAME is a way in which it is to be wrong. Its methods are then called
- * halves-NAME and every-two-NAME.
+ * A plug-in for tests: a tree that halves the triangles in their given order, all pairs by comparing every two boxes, and queries of moving
+ * points all of which are said to touch at the start, so that it misses none. It is right, unless its file is called fault-NAME.so, where
+ * NAME is a way in which it is to be wrong. Its methods are then called halves-NAME, every-two-NAME and at-the-start-NAME.
  */
 #include <bvhbench/plugin.h>
 
@@ -25,6 +25,8 @@ typedef struct State {
     uint64_t entry_count;
     uint32_t *pairs;
     uint64_t pair_count, pair_room;
+    double *times;
+    uint64_t time_count;
     const char *error;
 } State;
 
@@ -276,6 +278,30 @@ static int tree(void *state, bvhbench_tree *out)
     return 0;
 }
 
+static int load_queries(void *state, const bvhbench_queries *queries)
+{
+    State *s = state;
+    s->times = calloc(queries->count, sizeof *s->times);
+    s->time_count = queries->count;
+    return 0;
+}
+
+static int answer(void *state, bvhbench_stages *stages)
+{
+    State *s = state;
+    begin(stages, "narrow");
+    for (uint64_t k = 0; k < s->time_count; ++k)
+        s->times[k] = is("misses") && k == 0 ? 2 : 0;
+    end(stages);
+    return 0;
+}
+
+static int times(void *state, const double **out)
+{
+    *out = ((State *)state)->times;
+    return 0;
+}
+
 static uint64_t bytes(void *state)
 {
     const State *s = state;
@@ -291,6 +317,7 @@ static void destroy(void *state)
     free(s->nodes);
     free(s->entries);
     free(s->pairs);
+    free(s->times);
     if (is("double-free"))
         abort(); /* as a C library does that notices it */
     free(s);
@@ -299,16 +326,43 @@ static void destroy(void *state)
 const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
 {
     static bvhbench_method methods[] = {
-        {"halves", "halves in the given order, and every two boxes", create, prepare, load, build,
-         refit, query, pairs, 0, tree, bytes, error, destroy},
-        {"every-two", "no tree: every two boxes", create, prepare, load, NULL, NULL, query, pairs,
-         0, NULL, bytes, error, destroy}};
+        {.name = "halves",
+         .summary = "halves in the given order, and every two boxes",
+         .create = create,
+         .prepare = prepare,
+         .load = load,
+         .build = build,
+         .refit = refit,
+         .query = query,
+         .pairs = pairs,
+         .tree = tree,
+         .bytes = bytes,
+         .error = error,
+         .destroy = destroy},
+        {.name = "every-two",
+         .summary = "no tree: every two boxes",
+         .create = create,
+         .prepare = prepare,
+         .load = load,
+         .query = query,
+         .pairs = pairs,
+         .bytes = bytes,
+         .error = error,
+         .destroy = destroy},
+        {.name = "at-the-start",
+         .summary = "all touch at the start",
+         .create = create,
+         .error = error,
+         .destroy = destroy,
+         .load_queries = load_queries,
+         .answer = answer,
+         .times = times}};
     static bvhbench_plugin plugin = {
-        BVHBENCH_PLUGIN_ABI, "Halves", "1.0", "MIT", "host", 2, methods};
-    static char names[2][64];
+        BVHBENCH_PLUGIN_ABI, "Halves", "1.0", "MIT", "host", 3, methods};
+    static char names[3][64];
     (void)host_abi;
     find_fault();
-    for (int k = 0; k < 2 && planted[0] != '\0'; ++k) {
+    for (int k = 0; k < 3 && planted[0] != '\0'; ++k) {
         snprintf(names[k], sizeof names[k], "%s-%s", methods[k].name, planted);
         methods[k].name = names[k];
     }

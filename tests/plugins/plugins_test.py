@@ -130,6 +130,19 @@ def test_it_stands_in_lists_and_in_other_commands():
     expect(0, "compare", "swept/sweep.json", "other.json", "--allow-dirty", says="from outside: Halves 1.1 (MIT)")
 
 
+def test_single_queries_are_counted_against_the_oracle():
+    """A vertex passes through a face at half of the step, another beside it."""
+    file, points = pathlib.Path("through_vf.csv"), ("0,1,0,1,0,1", "1,1,0,1,0,1", "0,1,1,1,0,1")
+    file.write_text("".join("\n".join((f"{x},4,1,4,1,1", *points, f"{x},4,1,4,-1,1", *points)) + "\n" for x in (1, 7)))
+    expect(0, "accuracy", "--axis", "queries", "--scene", str(file), "--plugin", GOOD, *wrong("--plugin", "misses"), "--samples", "2",
+           "--filter", "at-the-start|ccd-f64-1e-6", "--out", "q", says="at-the-start-misses, vertex-face: 1 missed, 0 late and 1 false of 2 queries")
+    ours, right, misses = valid("q/accuracy-queries.json")["cells"]
+    counts = [[cell["counters"][key] for key in ("touching_count", "missed_count", "late_count", "false_count")] for cell in (ours, right, misses)]
+    assert counts == [[1, 0, 0, 0], [1, 0, 0, 1], [1, 1, 0, 1]], counts
+    assert abs(right["counters"]["gap_median"] - 0.5) < 1e-9 and right["counters"]["shortened_mean"] > 0.74, right
+    assert right["outside"]["name"] == "at-the-start" and "outside" not in ours, right
+
+
 def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
     """The program takes 50 times as long as `brute`, and says that it takes a twentieth of its time."""
     slip = wrong("--program", "microseconds")
@@ -248,8 +261,8 @@ def test_one_that_takes_too_much_memory_is_ended_with_all_that_it_started():
 
 
 STARTS = {  # fault of the library: what is said when it starts
-    "abi": "it was made for version 2 of the interface, and this is version 1",
-    "old-host": "it does not serve version 1 of the interface",
+    "abi": "it was made for version 3 of the interface, and this is version 2",
+    "old-host": "it does not serve version 2 of the interface",
     "dies-at-start": "in `hello`: it crashed (signal 6)",
     "taken-name": "has a method 'karras', and there is a builder or collider of that name",
     "bad-name": "it calls a method 'Halves!'; a name is up to 64 small letters, digits and hyphens",

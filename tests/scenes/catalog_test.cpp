@@ -148,14 +148,14 @@ TEST(Manifest, HasStandInsOfTheSameCountForMeshesAndGeneratedLastForAll)
         for (const std::string& stand_in : entry.stand_ins) {
             SCOPED_TRACE(entry.name + " " + stand_in);
             const bool is_last = &stand_in == &entry.stand_ins.back();
-            if (entry.is_frames && !is_last) {
+            if (entry.kind == ManifestEntry::Kind::frames && !is_last) {
                 EXPECT_TRUE(names.count(stand_in));
             }
             if (is_last) {
                 EXPECT_NE(stand_in.find(':'), stand_in.npos);
                 EXPECT_FALSE(stand_in.starts_with("refine:"));
             }
-            if (!entry.is_frames || (is_last && entry.triangles != 0)) {
+            if (entry.kind == ManifestEntry::Kind::mesh || (is_last && entry.triangles != 0)) {
                 EXPECT_EQ(stand_in.substr(stand_in.rfind(':') + 1),
                           std::to_string(entry.triangles));
             }

@@ -1,20 +1,25 @@
 /* SPDX-License-Identifier: MIT
  *
- * A builder or a collider from outside, as a shared library: `bvhbench --plugin ./libmine.so ...`. docs/plugins.md is a tutorial.
+ * A builder, a collider or continuous collision detection from outside, as a shared library: `bvhbench --plugin ./libmine.so ...`. docs/plugins.md is a tutorial.
  *
  * The library exports one symbol, `bvhbench_plugin_entry`. bvhbench loads it in a process of its own and calls all functions from
  * one thread. For a method it calls
  *
  *     create, prepare, load, then any number of build, refit, query, pairs and tree, with a load before every new frame, destroy
  *
- * Only build, refit and query are timed: their stages by the plug-in, and each whole call by bvhbench. Both times are shown.
- * Inputs are in host memory. Uploads belong into prepare and load, which are not timed, as bvhbench's own uploads are not.
+ * or, for a method that answers single queries of moving points, `accuracy --axis queries`,
+ *
+ *     create, load_queries, then any number of answer and times, destroy
+ *
+ * Only build, refit, query and answer are timed: their stages by the plug-in, and each whole call by bvhbench. Both times are shown.
+ * Inputs are in host memory. Uploads belong into prepare and the loads, which are not timed, as bvhbench's own uploads are not.
  *
  * A function that returns int returns 0, or anything else if it failed; `error` then says why in one sentence. Arrays that the
- * plug-in gives are the plug-in's and stay valid until the next call; faces stay valid until `destroy`, points until the next `load`.
+ * plug-in gives are the plug-in's and stay valid until the next call; faces stay valid until `destroy`, points and queries until the
+ * next load.
  *
- * Every method has create, prepare, load, error and destroy, and what it can be judged by: `build` with `tree`, or `query` with
- * `pairs`, or both.
+ * Every method has create, error and destroy, and what it can be judged by: prepare, load and `build` with `tree`, or `query` with `pairs`,
+ * or both; or load_queries and `answer` with `times`.
  */
 #ifndef BVHBENCH_PLUGIN_H
 #define BVHBENCH_PLUGIN_H
@@ -26,7 +31,7 @@ extern "C" {
 #endif
 
 /* Version of this interface. bvhbench refuses a plug-in of another version. */
-#define BVHBENCH_PLUGIN_ABI 1u
+#define BVHBENCH_PLUGIN_ABI 2u
 
 /* The mesh of all frames. All objects are one set of triangles, and pairs are sought among all of them. */
 typedef struct bvhbench_mesh {
@@ -67,7 +72,15 @@ typedef struct bvhbench_tree {
     const uint32_t *entry;
 } bvhbench_tree;
 
-/* A way to build a tree, to find pairs, or both. Functions that a method lacks are NULL. */
+/* Queries of continuous collision detection: four points each, which move in straight lines from time 0 to time 1. */
+typedef struct bvhbench_queries {
+    uint64_t count; /* 1 or more */
+    uint32_t
+        of_edges; /* 1: the ends of the edges 0 1 and 2 3; 0: vertex 0 and the corners 1 2 3 of a face */
+    const double *points; /* 24 a query: x, y, z of the four at time 0, then at time 1 */
+} bvhbench_queries;
+
+/* A way to build a tree, to find pairs, or both; or to answer queries. Functions that a method lacks are NULL. */
 typedef struct bvhbench_method {
     const char *name;    /* as on the command line: small letters, digits and hyphens */
     const char *summary; /* one line, for `bvhbench list` */
@@ -99,6 +112,14 @@ typedef struct bvhbench_method {
     /* Why the last call failed: one sentence. */
     const char *(*error)(void *state);
     void (*destroy)(void *state);
+
+    /* Takes queries. Not timed. */
+    int (*load_queries)(void *state, const bvhbench_queries *queries);
+    /* From the queries to times, which are finished at return: the stage `narrow`. */
+    int (*answer)(void *state, bvhbench_stages *stages);
+    /* The last answers, one a query: a time from 0 to 1 before which the two do not touch, or one above 1 if they do not touch at all. Not
+     * timed. */
+    int (*times)(void *state, const double **times);
 } bvhbench_method;
 
 typedef struct bvhbench_plugin {
