@@ -168,24 +168,6 @@ TEST_P(Impacts, ByHandAreFoundWhereverTheyAreAndBeforeTheyHappen)
         }
 }
 
-TEST_P(Impacts, ByHandAreThoseOfTheReference)
-{
-    if (!has_exact_reference)
-        GTEST_SKIP() << "built without CGAL: there is no reference";
-    const Motions all = cases(1, 0);
-    const std::vector<Impact> found = touching_on_the_way(all.from, all.to, all.faces, all.pairs);
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < std::size(by_hand); ++k) {
-        SCOPED_TRACE(by_hand[k].name);
-        const bool is_there = next < found.size() && found[next].pair == all.pairs[k];
-        ASSERT_EQ(is_there, by_hand[k].time.has_value());
-        if (is_there) {
-            EXPECT_GE(found[next++].no_later, *by_hand[k].time);
-        }
-    }
-    EXPECT_EQ(next, found.size());
-}
-
 // The bounds on rounding do not hold for differences this small or large.
 TEST_P(Impacts, AreAllFoundOutsideTheRangeOfTheBounds)
 {
@@ -343,96 +325,6 @@ TEST_P(Impacts, AtRandomAreNeverMissedAndFalseOnesComeNear)
             EXPECT_EQ(far, 0u);
         }
     }
-}
-
-/// Sets coordinates in a plane, whole numbers, to points of space.
-using Plane = Point (*)(float, float, bool is_last);
-
-constexpr Plane planes[] = {
-    [](float u, float v, bool) {
-        return Point{u, v, 0};
-    },
-    [](float u, float v, bool) {
-        return Point{3, u, v};
-    },
-    [](float u, float v, bool) {
-        return Point{v, 0, u};
-    },
-    [](float u, float v, bool) {
-        return Point{u, v, u / 2 - v / 4};
-    },
-    [](float u, float v, bool) {
-        return Point{0x1p-130f * u, 0x1p-130f * v, 0};
-    },
-    [](float u, float v, bool is_last) {
-        return Point{u, v + 4096, u / 2 - v / 4 + (is_last ? 100.0f : -7.0f)};
-    },
-};
-
-/// Returns whether the features of pair k meet at a time in the projection along z, in more than a point of their edges. Exact for
-/// whole coordinates and times of few bits.
-bool cross_in_plane(const Motions& all, std::size_t k, double time)
-{
-    const auto turn = [&](std::size_t i, std::size_t j, std::size_t l) {
-        std::array<std::array<double, 2>, 3> at;
-        for (std::size_t n = 0; n < 3; ++n) {
-            const std::size_t v = 4 * k + std::array{i, j, l}[n];
-            at[n] = {all.from[v].x + time * (all.to[v].x - all.from[v].x),
-                     all.from[v].y + time * (all.to[v].y - all.from[v].y)};
-        }
-        const double product = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
-                               (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]);
-        return product > 0 ? 1 : product < 0 ? -1 : 0;
-    };
-    if (all.is_of_edges(k))
-        return turn(0, 1, 2) * turn(0, 1, 3) < 0 && turn(2, 3, 0) * turn(2, 3, 1) < 0;
-    return std::abs(turn(1, 2, 0) + turn(2, 3, 0) + turn(3, 1, 0)) == 3;
-}
-
-// Motions in one plane, for which the polynomial of degree 3 is zero, once took hundreds of roots a pair.
-TEST(ImpactReference, NeedsHardlyARootForMotionsInOnePlane)
-{
-    if (!has_exact_reference)
-        GTEST_SKIP() << "built without CGAL: there is no reference";
-    constexpr std::size_t count = 2000;
-    std::vector<Pair> first;
-    for (const Plane& plane : planes) {
-        std::mt19937 random(5);
-        Motions all;
-        const auto four = [&](bool is_last) {
-            Four points;
-            for (Point& p : points) {
-                const auto u = static_cast<float>(random() % 1024);
-                p = plane(u, static_cast<float>(random() % 1024), is_last);
-            }
-            return points;
-        };
-        for (std::size_t k = 0; k < count; ++k) {
-            const Four from = four(false);
-            all.add(k % 2 == 1, from, four(true));
-        }
-        Checked checked;
-        std::vector<Pair> pairs;
-        for (const Impact& one :
-             touching_on_the_way(all.from, all.to, all.faces, all.pairs, &checked))
-            pairs.push_back(one.pair);
-        EXPECT_EQ(checked.all, count);
-        EXPECT_LT(checked.by_roots, count / 100);
-        if (first.empty()) {
-            first = pairs;
-            for (std::size_t k = 0; k < count; ++k) {
-                bool crosses = false;
-                for (int step = 0; step <= 64; ++step)
-                    crosses = crosses || cross_in_plane(all, k, step / 64.0);
-                const bool touches = std::ranges::binary_search(pairs, all.pairs[k]);
-                EXPECT_TRUE(touches || !crosses) << k;
-                EXPECT_TRUE(crosses || !touches || least_distance(all, k) < 2) << k;
-            }
-        }
-        EXPECT_EQ(pairs, first);
-    }
-    EXPECT_GT(first.size(), count / 3);
-    EXPECT_LT(first.size(), count * 2 / 3);
 }
 
 // Small enough for a simulated device that checks every memory access.
