@@ -42,12 +42,6 @@ class Comparison:
     withheld: int = 0  # cells that would be FASTER or SLOWER, if there were no warnings
 
     @property
-    def error_of_each(self) -> float:
-        """Returns the error allowed for one cell, after Bonferroni, so that comparisons of hundreds of cells of equal programs
-        rarely fail."""
-        return self.rules.error / max(1, sum(cell.has_times for cell in self.cells))
-
-    @property
     def regressions(self) -> int:
         if self.rules.builders:
             return sum(bool(cell.regressions) for cell in self.cells)
@@ -81,8 +75,11 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
         if len(cells) == 1:
             return  # it has no other to be compared with
 
+    # The error allowed for one cell, after Bonferroni, so that comparisons of hundreds of cells of equal programs rarely fail.
+    error = rules.error / max(1, sum(cell.has_times for cell in comparison.cells))
+
     def change(first: times.Times, second: times.Times) -> times.TimeChange:
-        return times.time_change(first, second, rules.threshold, comparison.error_of_each, spread, common)
+        return times.time_change(first, second, rules.threshold, error, spread, common)
 
     for cell, pair in zip(cells, whole, strict=True):
         cell.time = change(*pair)

@@ -19,10 +19,11 @@ def text(run: results.Run) -> str:
         return ""
     missing = [f"{scene} does not count in shares: {counted(len(lacks), 'cell')} missing, as {', '.join(lacks[0])}"
                for scene, lacks in effects.lacking(cells).items() if lacks]
+    frame, query = (effects.shares(cells, of_query) for of_query in (False, True))
     return (headed("time over the reference's, all else equal; trees with one way to store leaves are held against sorted ones",
                    ("<choice", "<level", "<against", *TITLES, "pairs"), rows_of_ratios(cells))
             + headed("shares of the sum of squares of log times within scenes", ("<decided by", "frame", "query"),
-                     rows_of_shares(cells))
+                     ([name, percent(share), percent(query[name])] for name, share in frame.items()))
             + "".join(f"{terminal.prose(line)}\n" for line in missing)
             + headed("rank correlation with the time of the stage broad, median and range of scenes",
                      titles_of_ranks(cells), rows_of_ranks(cells)))
@@ -45,13 +46,6 @@ def rows_of_ratios(cells: list[Cell]) -> Iterator[list[str]]:
 
 def columns_of(ratio: effects.Ratio) -> list[str]:
     return [fixed(ratio.mean), span(ratio.interval, 2, "-"), span(ratio.by_scene.values(), 2, "-")]
-
-
-def rows_of_shares(cells: list[Cell]) -> Iterator[list[str]]:
-    """Yields the shares of each choice and of each two, of frame and query; none if every scene lacks a combination."""
-    frame, query = (effects.shares(cells, of_query) for of_query in (False, True))
-    for name in frame:
-        yield [name, percent(frame[name]), percent(query[name])]
 
 
 def titles_of_ranks(cells: list[Cell]) -> list[str]:

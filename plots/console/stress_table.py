@@ -48,11 +48,8 @@ def text_of(invariant: str, finding: Found) -> str:
 
 def verdict_of(cell: dict[str, Any]) -> str:
     """Returns the verdict of one system on a scene."""
-    for verdict in ("broken", "refused"):
-        for invariant, finding in cell["findings"].items():
-            if finding["verdict"] == verdict:
-                return text_of(invariant, finding)
-    return "right" if cell["findings"] else ""
+    worst = max(cell["findings"].items(), key=lambda found: WORSE[found[1]["verdict"]], default=None)
+    return text_of(*worst) if worst else ""
 
 
 def tally(cells: list[dict[str, Any]]) -> str:

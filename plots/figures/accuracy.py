@@ -27,11 +27,6 @@ Value = Callable[[results.Cell], float]
 Text = Callable[[float], str]
 
 
-def build_s(cell: results.Cell) -> float:
-    """Returns the median time of all stages before the query, in seconds."""
-    return results.median(cell.times_s() - cell.times_s("broad"))
-
-
 def sheet(axis: str, inputs: dict[str, list[results.Cell]], columns: int, inches: float, error: Value, scale: tuple[float, float, Text],
           time: Value, labels: tuple[str, str], limit: Callable[[plt.Axes, list[Point]], Any] = log_times,
           **title: float) -> tuple[plt.Figure, list[plt.Axes]]:
@@ -72,14 +67,12 @@ def cheapest(costs: list[Cost], most: float) -> list[tuple[float, Cost]]:
     """Returns (queries, cost) for each method that is cheapest from that number of queries on, starting at 1 and up to `most`."""
     best = min(costs, key=lambda cost: (cost.of(1), cost.query))
     found = [(1.0, best)]
-    while True:
-        # Numbers of queries at which a method with faster queries becomes cheaper than the current best.
-        crossings = [((cost.build - best.build) / (best.query - cost.query), cost.query, cost)
-                     for cost in costs if cost.query < best.query]
-        if not crossings or min(crossings)[0] > most:
-            return found
+    # Numbers of queries at which a method with faster queries becomes cheaper than the current best.
+    while crossings := [((cost.build - best.build) / (best.query - cost.query), cost.query, cost)
+                        for cost in costs if cost.query < best.query]:
         queries, _, best = min(crossings)
         found.append((queries, best))
+    return [(queries, cost) for queries, cost in found if queries <= most]
 
 
 def draw_break_even(axes: plt.Axes, costs: list[Cost], most: float) -> None:
@@ -112,15 +105,15 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     measures = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query, M"}
     drawing, grid = figure.grid(len(measures) + 1, len(inputs), 7.0)
     for column, (name, group) in enumerate(inputs.items()):
-        costs = [Cost(build_s(cell), median_s(cell, "broad"), cell.accuracy["method"]) for cell in group]
+        costs = [Cost(results.median(cell.times_s() - cell.times_s("broad")), median_s(cell, "broad"), cell.accuracy["method"])
+                 for cell in group]
         draw_break_even(grid[-1][column], costs, MOST_QUERIES)
         grid[-1][column].set_xlabel("queries of one build")
         if column == 0:
             grid[-1][column].set_ylabel("build and queries")
         for row, measure in enumerate(measures):
             scale = 1e-6 if measure == "box_tests_count" else 1
-            points = [Point(1e3 * build_s(cell), scale * cell.counters[measure], cell.accuracy["method"])
-                      for cell in group]
+            points = [Point(1e3 * cost.build, scale * cell.counters[measure], cost.method) for cost, cell in zip(costs, group, strict=True)]
             axes = grid[row][column]
             log_times(axes, points, 3 if len(inputs) > 3 else 5)
             draw_points(axes, "codes", points)

@@ -42,11 +42,6 @@ class Step:
         return self.first.called + ("" if len(self.kinds) == len(KINDS) else f", {self.kinds[0]} only")
 
 
-def steps_of(cells: list[results.Cell]) -> dict[str, list[Step]]:
-    return {scene: [Step(group) for group in pipelines.grouped_by_pipeline(there, "pairs_of")]
-            for scene, there in results.grouped(cells, lambda cell: cell.scene).items()}
-
-
 def title(steps: list[Step]) -> str:
     """Returns scene, steps and numbers of pairs, which are the same for all pipelines that have both queries."""
     first = max(steps, key=lambda step: len(step.kinds))
@@ -59,10 +54,11 @@ def title(steps: list[Step]) -> str:
 
 
 def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> plt.Figure:
-    scenes = steps_of(cells)
-    rows = [len(steps) for steps in scenes.values()]
-    drawing, grid = figure.grid(len(scenes), 1, 1.2 + 0.5 * len(rows) + ROW * sum(rows), height_ratios=[count + 1.5 for count in rows])
-    for axes, steps in zip(grid[:, 0], scenes.values(), strict=True):
+    scenes = [[Step(group) for group in pipelines.grouped_by_pipeline(there, "pairs_of")]
+              for there in results.grouped(cells, lambda cell: cell.scene).values()]
+    rows = [len(steps) for steps in scenes]
+    drawing, grid = figure.grid(len(rows), 1, 1.2 + 0.5 * len(rows) + ROW * sum(rows), height_ratios=[count + 1.5 for count in rows])
+    for axes, steps in zip(grid[:, 0], scenes, strict=True):
         for row, step in enumerate(steps):
             pairs = step.total("pairs_count") * 1e-6
             colour = pipelines.Pipeline(step.first.scene, step.cells).colour
@@ -78,7 +74,7 @@ def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> 
                Patch(color="#555555", alpha=PALE, label="by the queries alone, trees given")]
     missed = sum(cell.counters.get("ground_truth_missed", 0) for cell in cells)
     truth = any("ground_truth_pairs" in cell.counters for cell in cells)
-    starred = any(pipelines.stands_in(steps[0].first) for steps in scenes.values())
+    starred = any(pipelines.stands_in(steps[0].first) for steps in scenes)
     said = ["Pairs whose boxes, around the way from one frame to the next, overlap, and that share no vertex; the sweep's "
             "in every cell." + (f" Of the ground truth {missed:,.0f} are missed." if truth else "")]
     if starred:

@@ -152,14 +152,10 @@ def to_an_end(main: Callable[[], int], prefix: str = "") -> int:
         say(f"{prefix}standard output cannot be written: {error.strerror}")
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # discards the rest of its buffer
     except Exception as error:  # no reader foresaw it: the file is malformed in a new way, or the command has a defect
-        say(f"{prefix}what was read cannot be used: {type(error).__name__}, {described(error)} ({place_of(error)})")
+        place = traceback.extract_tb(error.__traceback__)[-1]  # in this program
+        where = f"{pathlib.Path(place.filename).name}:{place.lineno}"
+        say(f"{prefix}what was read cannot be used: {type(error).__name__}, {described(error)} ({where})")
     return 3
-
-
-def place_of(error: Exception) -> str:
-    """Returns the file and line of this program where an error arose."""
-    place = traceback.extract_tb(error.__traceback__)[-1]
-    return f"{pathlib.Path(place.filename).name}:{place.lineno}"
 
 
 def prepare_streams() -> None:

@@ -69,12 +69,6 @@ def scene_name(cell: Cell) -> str:
     return f"{cell.scene} *" + (f" (for {other})" if other != cell.scene_facts["name"] else "")
 
 
-def family_of(cell: Cell) -> str:
-    """Returns the scene's name without its number of triangles, if it has one: "torus" of "torus:1000". Empty for meshes."""
-    kind = re.sub(rf":{re.escape(str(cell.triangles))}(?=:|$)", "", cell.scene)
-    return kind if kind != cell.scene else ""
-
-
 def library_of(cell: Cell) -> str | None:
     """Returns the library that built the tree or queried it, if it was not ours."""
     first = (name.split("-")[0] for name in (cell.builder, cell.collider) if name)
@@ -122,27 +116,21 @@ def errors_of(cell: Cell) -> dict[str, float]:
     return errors
 
 
-def measures_of(cell: Cell) -> dict[str, float]:
-    """Returns the quantities that time can be plotted against: errors and measures of tree quality."""
-    goodness = GOODNESS if cell.operation != "collide" else {}
-    return errors_of(cell) | {text: cell.counters[key] for key, text in goodness.items() if key in cell.counters}
-
-
 def cell_data(cell: Cell, copy_rate: float) -> Data:
     """Returns a cell's data; `copy_rate` is that of the run that measured it, in bytes per second, or 0."""
     state = state_of(cell)
+    kind = re.sub(rf":{re.escape(str(cell.triangles))}(?=:|$)", "", cell.scene)  # "torus" of "torus:1000"
     data = {
         "experiment": cell.experiment, "operation": cell.operation, "who": who(cell), "builder": cell.builder,
-        "collider": cell.collider, "scene": scene_name(cell), "family": family_of(cell), "is_stand_in": bool(cell.stand_in_for),
-        "library": library_of(cell),
-        "triangles": cell.scene_facts.get("triangles"),
+        "collider": cell.collider, "scene": scene_name(cell), "family": kind if kind != cell.scene else "", "is_stand_in": bool(cell.stand_in_for),
+        "library": library_of(cell), "triangles": cell.scene_facts.get("triangles"),
         "frame": cell.frame, "asked": asked(cell), "state": state, "why": cell.reason or cell.check.get("detail", ""),
-        "n": len(cell.all_samples), "ranks": cell.cluster,
-        "counters": cell.counters, "axis": cell.accuracy.get("axis"), "times": {}}
+        "n": len(cell.all_samples), "ranks": cell.cluster, "counters": cell.counters, "axis": cell.accuracy.get("axis"), "times": {}}
     if state not in WITHOUT_TIMES:
-        times = data["times"] = times_of(cell)
-        data |= {"on_host": cell.on_host, "copy_share": copy_share(cell, times, copy_rate) if times else None,
-                 "errors": errors_of(cell), "measures": measures_of(cell)}
+        times, errors = times_of(cell), errors_of(cell)
+        goodness = {text: cell.counters[key] for key, text in GOODNESS.items() if cell.operation != "collide" and key in cell.counters}
+        data |= {"times": times, "on_host": cell.on_host, "copy_share": copy_share(cell, times, copy_rate) if times else None,
+                 "errors": errors, "measures": errors | goodness}  # what time can be plotted against
     return data
 
 

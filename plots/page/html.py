@@ -22,12 +22,11 @@ DEBIAN = pathlib.Path("/usr/share")
 def plotly_file() -> pathlib.Path:
     """Returns Debian's plotly.js, or that of the Python package. Raises results.Refused if there is none."""
     debian = DEBIAN / "python3-plotly" / "plotly.js"
-    if debian.exists():
-        return debian
     package = importlib.util.find_spec("plotly")
-    for folder in package.submodule_search_locations or [] if package else []:
-        if (found := pathlib.Path(folder) / "package_data" / "plotly.min.js").exists():
-            return found
+    folders = package.submodule_search_locations or [] if package else []
+    for path in (debian, *(pathlib.Path(folder) / "package_data" / "plotly.min.js" for folder in folders)):
+        if path.exists():
+            return path
     raise results.Refused(f"charts need plotly.js, and neither {debian} nor a Python package plotly is there: "
                           "on Debian, install python3-plotly")
 

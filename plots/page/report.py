@@ -25,7 +25,8 @@ def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell
     reader, stress = results.Run(path, document), document.get("stress", [])
     cells = [cell_data.cell_data(cell, reader.copy_rate_of(cell)) for cell in all_cells]
     cell_data.mark_fronts(cells)
-    by_library = Counter((cell["library"], cell["state"]) for cell in cells) + stress_data.states_of(stress)
+    by_library = Counter((cell["library"], cell["state"]) for cell in cells)
+    by_library.update((cell.get("library"), finding["verdict"]) for cell in stress for finding in cell["findings"].values())
     return {"cells": cells, "bars": cell_data.bars_of(cells), "looks": plot_looks.looks_of(cells), "star": cell_data.STAR,
             "tables": experiment_tables.skips(all_cells) + experiment_tables.builders(reader) + tables.tables_of(cells)
             + stress_data.tables_of(stress), "states": tallied(by_library)}

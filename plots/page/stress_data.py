@@ -1,7 +1,5 @@
 """What `stress` found, for the page: a sentence, and tables of systems, of what broke, and of everything. What a library got
 wrong is named and counted apart from what is ours."""
-from collections import Counter
-from collections.abc import Callable
 from typing import Any
 
 from ..console import stress_table as words
@@ -30,11 +28,6 @@ def finding_of(stress: list[Found]) -> dict[str, Any]:
     for library, cells in grouped((cell for cell in stress if cell.get("library")), lambda cell: cell["library"]).items():
         said.append(f"{library}: {count(cells, 'broken'):,} of {counted(len(cells), 'cell')} broken.")
     return {"experiment": "stress", "question": QUESTION, "answer": " ".join(said), "rows": []}
-
-
-def states_of(stress: list[Found]) -> Counter[tuple[str | None, str]]:
-    """Returns the number of findings by library and verdict."""
-    return Counter((cell.get("library"), finding["verdict"]) for cell in stress for finding in cell["findings"].values())
 
 
 def shown(name: str, finding: Found | None) -> str | None:
@@ -76,7 +69,8 @@ def cells_table(stress: list[Found]) -> dict[str, Any]:
 def systems_table(stress: list[Found]) -> dict[str, Any]:
     """Returns one row for each system: its findings over all scenes, added up; first the systems of which one does not hold."""
     there = invariants_of(stress)
-    systems = grouped(sorted(stress, key=is_wholly_right(stress)), lambda cell: cell["system"])
+    bad = {cell["system"] for cell in stress if verdicts(cell) - {"holds"}}
+    systems = grouped(sorted(stress, key=lambda cell: cell["system"] not in bad), lambda cell: cell["system"])
     rows = []
     for system, cells in systems.items():
         own = {name: [cell["findings"][name] for cell in cells if name in cell["findings"]] for name in there}
@@ -84,12 +78,6 @@ def systems_table(stress: list[Found]) -> dict[str, Any]:
                      *(shown_of(found) if found else None for found in own.values())])
     columns = [("system", "text"), ("whose", "text"), ("scenes", "count"), *((name, "state") for name in there)]
     return table("By system", columns, FACETS, rows, libraries=[cells[-1].get("library") for cells in systems.values()])
-
-
-def is_wholly_right(stress: list[Found]) -> Callable[[Found], bool]:
-    """Returns a function of cells: true if all findings of the cell's system hold."""
-    bad = {cell["system"] for cell in stress if verdicts(cell) - {"holds"}}
-    return lambda cell: cell["system"] not in bad
 
 
 def shown_of(findings: list[Found]) -> str:

@@ -35,10 +35,6 @@ def keeps(collider: str, update: str = "") -> bool:
     return update == "refit" or collider.endswith("-refit") or (of_collider(collider) == "front tracking" and update != "rebuild")
 
 
-def keeps_frame(cell: Cell) -> bool:
-    return cell.is_frame and keeps(cell.collider or "", dict(cell.collider_options).get("update", ""))
-
-
 def of_cell(cell: Cell) -> str:
     if cell.outside:
         return cell.outside["library"]

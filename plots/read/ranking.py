@@ -284,7 +284,8 @@ def ranked(cells: Iterable[Cell], objective: str = "frame", trusts_stages: bool 
     timed = [cell for cell in cells if cell.has_times and (cell.scene, method(cell)) not in bad
              and (objective not in AMOUNTS or not math.isnan(AMOUNTS[objective](cell)))]
     still = {scene for scene, there in grouped(timed, lambda cell: cell.scene).items() if len({cell.frame for cell in there}) == 1}
-    unplaced = [cell for cell in timed if cell.scene in still and families.keeps_frame(cell)]
+    unplaced = [cell for cell in timed if cell.scene in still and cell.is_frame
+                and families.keeps(cell.collider or "", dict(cell.collider_options).get("update", ""))]
     placed = [cell for cell in timed if cell not in unplaced]
     measure = Measure(objective, not trusts_stages and is_by_wall(placed))
     scenes = {scene: rows_of_scene(later(there), measure) for scene, there in grouped(placed, lambda cell: cell.scene).items()}

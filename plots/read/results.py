@@ -158,16 +158,12 @@ def load(path: pathlib.Path) -> Run:
     for hook, value in document["run"].get("test_hooks", {}).items():
         raise Refused(f"{path}: made under the test hook {hook}={value}: it is no result")
     try:
-        cells = [failed_if_wrong(cell) for cell in hot_of(document["cells"])]
+        hot = [cell for cell in document["cells"] if cell.get("sampling", {}).get("caches", "hot") == "hot"]  # which a figure shows
+        cells = [failed_if_wrong(cell) for cell in hot or document["cells"]]
         return Run(path, document, [cell_of(path, cell) for cell in cells if cell["status"] == "measured"],
                    [Cell(cell) for cell in cells if cell["status"] != "measured"])
     except (AttributeError, LookupError, TypeError, ValueError) as error:
         raise Refused(f"{path} is no result file: {error}") from error
-
-
-def hot_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Returns the cells that a figure shows: those with hot caches, if there are any."""
-    return [cell for cell in cells if cell.get("sampling", {}).get("caches", "hot") == "hot"] or cells
 
 
 def everything(path: str | os.PathLike[str]) -> Run:

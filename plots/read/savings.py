@@ -127,13 +127,6 @@ def of_scenes(cells: Iterable[Cell]) -> list[Saving]:
     return found
 
 
-def extremes(savings: list[Saving]) -> tuple[Saving, Saving] | None:
-    """Returns the saving with the largest ratio of times without the rule to with it, and that with the least, among those that
-    skip something and are used by default; None if there are none."""
-    used = [one for one in savings if one.skips_something and not one.is_forced and one.rule != ALL]
-    return (max(used, key=times), min(used, key=times)) if used else None
-
-
 def times(one: Saving) -> float:
     """Returns the time without the rule over the time with it."""
     own, other = one.ns()
@@ -141,9 +134,10 @@ def times(one: Saving) -> float:
 
 
 def sentence(cells: Iterable[Cell]) -> str:
-    """Returns what the rules saved at best and at worst, as one sentence; empty if they had nothing to skip."""
-    found = extremes(of_scenes(cells))
-    if found is None:
+    """Returns what the rules that are used by default saved at best and at worst, as one sentence; empty if they had nothing to skip."""
+    used = [one for one in of_scenes(cells) if one.skips_something and not one.is_forced and one.rule != ALL]
+    if not used:
         return ""
-    said = [f"{times(one):.2f} times as long ({one.rule}, {one.pipeline}, {one.first.scene})" for one in found]
+    said = [f"{times(one):.2f} times as long ({one.rule}, {one.pipeline}, {one.first.scene})"
+            for one in (max(used, key=times), min(used, key=times))]
     return f"A frame without a rule takes at most {said[0]} and at least {said[1]} as with it."

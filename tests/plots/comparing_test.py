@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Tests what `compare` reports about times, counters, verdicts and cells of two result files, and its statistics against tables and
-a simulation."""
+"""Tests what `compare` reports about times, counters, verdicts and cells of two result files, and its statistics against tables."""
 import argparse
 import copy
 import math
@@ -374,11 +373,6 @@ class Statistics(unittest.TestCase):
         for error, freedom, expected in ((0.05, 1, 12.7062), (0.05, 2, 4.3027), (0.05, 3, 3.1824), (0.05, 10, 2.2281), (0.01, 5, 4.0321),
                                          (0.001, 7, 5.4079), (0.05, 30, 2.0423), (0.01, 120, 2.6174), (0.5, 4, 0.7407)):
             self.assertAlmostEqual(student.quantile(error, freedom), expected, places=4)
-
-    def test_as_many_means_are_outside_as_the_error_says(self) -> None:
-        values = numpy.random.default_rng(11).normal(0, 1, (4000, 5))
-        margins = student.quantile(0.05, 4) * values.std(axis=1, ddof=1) / numpy.sqrt(5)
-        self.assertAlmostEqual(numpy.mean(numpy.abs(values.mean(axis=1)) > margins), 0.05, delta=0.012)
 
     def test_the_cells_of_a_scene_share_their_spread(self) -> None:
         cells = [numpy.array([0.01, -0.01, 0.03, -0.03]), numpy.array([0.0, 0.0, 0.0, 0.0])]

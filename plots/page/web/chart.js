@@ -72,16 +72,15 @@ class Chart {
 
   /** Creates a button that hides and shows the traces that `isOf` chooses; by default those of its name. */
   entry({name, look, isOf = (trace) => trace.name === name}) {
-    const toggle = () => {
+    const toggle = ({currentTarget}) => {
       const isShown = this.hidden.delete(isOf);
       if (!isShown) {
         this.hidden.add(isOf);
       }
-      made.setAttribute("aria-pressed", isShown);
+      currentTarget.setAttribute("aria-pressed", isShown);
       const isHidden = (trace) => [...this.hidden].some((one) => one(trace));
       Plotly.restyle(this.plot, {visible: this.plot.data.map((trace) => (isHidden(trace) ? "legendonly" : true))});
     };
-    const made = button({"aria-pressed": true, click: toggle}, swatch(look), name);
-    return made;
+    return button({"aria-pressed": true, click: toggle}, swatch(look), name);
   }
 }

@@ -55,8 +55,7 @@ function element(tag, attributes, ...children) {
 function menu(options, change) {
   const pairs = options.map((option) => [option].flat());
   const texts = pairs.map(([value, text = value]) => element("option", {value}, text));
-  const made = element("select", {change: () => change(made.value)}, ...texts);
-  return made;
+  return element("select", {change: ({target}) => change(target.value)}, ...texts);
 }
 
 function button(attributes, ...children) {

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The page itself: its contents, the part that is shown, and the targets of links. Parts are created when first shown.
-/** Returns how many cells are in each state; of the bad ones also how many are libraries'. */
-function verdictsOf(states) {
-  return states.map((one) => element("span", {class: "tally"}, badge(one.state, one.of.startsWith(", all")), ` ${one.count}${one.of}`));
-}
-
 /** Returns the figures that a brief page has in place of charts. */
 async function pictures(number) {
   return (await jsonOf("pictures-" + number)).map(([name, svg]) => {
@@ -18,7 +13,8 @@ async function makeFile(number, head) {
   const part = document.getElementById("file-" + number);
   const file = await jsonOf("file-" + number);
   file.cells.forEach((cell, place) => Object.assign(cell, {file: number, place}));
-  part.querySelector(".verdicts").append(...verdictsOf(file.states));
+  const tally = ({state, count, of}) => element("span", {class: "tally"}, badge(state, of.startsWith(", all")), ` ${count}${of}`);
+  part.querySelector(".verdicts").append(...file.states.map(tally));
   const charts = [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)]
     .filter(Boolean)
     .map((chart) => chart.element);
