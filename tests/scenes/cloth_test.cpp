@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/generate/cloth.h"
 
-#include <numbers>
 #include <set>
 
 #include "helpers.h"
@@ -11,17 +10,6 @@
 
 namespace bvhbench {
 namespace {
-
-TEST(Turn, IsWhatCosineAndSineSay)
-{
-    for (int k = -200; k <= 200; ++k) {
-        const Turn turn = turn_of(k / 37.0);
-        EXPECT_NEAR(turn.cosine, std::cos(2 * std::numbers::pi * k / 37.0), 2e-14);
-        EXPECT_NEAR(turn.sine, std::sin(2 * std::numbers::pi * k / 37.0), 2e-14);
-    }
-    EXPECT_EQ(turn_of(0.25).sine, 1.0);
-    EXPECT_EQ(turn_of(-1).cosine, 1.0);
-}
 
 TEST(NearPairs, AreThoseOfAllPairs)
 {
@@ -56,14 +44,6 @@ TEST(SheetMesh, HasExactlyItsTrianglesAndNoUnusedPoint)
                 for (const Point& point : mesh.points)
                     EXPECT_TRUE(point.x >= 0 && point.x <= 1 && point.y >= 0 && point.y <= 1);
             }
-}
-
-TEST(SheetMesh, HasNoSeamWhenClosed)
-{
-    const Mesh mesh = make_sheet(2 * 12 * 4, 3, true);  // 12 around, 4 up
-    EXPECT_EQ(mesh.points.size(), 12u * 5u);
-    for (const Point& point : mesh.points)
-        EXPECT_LT(point.x, 1.0f);
 }
 
 TEST(Shares, AreEvenWhereTheyCanBeAndMakeUpTheWhole)
@@ -126,26 +106,6 @@ TEST(Cloth, KeepsItsLayersApart)
         }
 }
 
-TEST(Cloth, SurfacePassesThroughItsParticles)
-{
-    for (const bool closed : {false, true}) {
-        Cloth cloth{{}};
-        const Sheet sheet = cloth.add(6, 4, closed, [](double u, double v) {
-            const Turn turn = turn_of(u);
-            return Vector{turn.cosine, v, turn.sine};
-        });
-        for (uint j = 0; j <= 4; ++j)
-            for (uint i = 0; i < 6; ++i)
-                EXPECT_LT(length(cloth.surface(sheet, i / 6.0, j / 4.0, {}) -
-                                 cloth.position(sheet.particle(i, j))),
-                          1e-12);
-        if (closed) {
-            EXPECT_LT(length(cloth.surface(sheet, 1, 0.3, {}) - cloth.surface(sheet, 0, 0.3, {})),
-                      1e-12);
-        }
-    }
-}
-
 TEST(Obstacles, PushTheShortestWayOut)
 {
     Ball ball;
@@ -167,24 +127,6 @@ TEST(Obstacles, PushTheShortestWayOut)
         EXPECT_NEAR(std::fabs(out.x - (1 + out.y)) / std::sqrt(2.0), Obstacle::gap, 1e-12);
         EXPECT_FALSE(cone.contact({is_wall ? 1.4 : 1.6, 0.5, 0}));
     }
-}
-
-TEST(Obstacles, MoveWhatTheyCarry)
-{
-    Placement placement;
-    placement.velocity = {0, 1, 0};
-    placement.spin = 2;
-    const Vector local = {1, 0, 0};
-    const Vector before = placement.place(local);
-    const Vector velocity = placement.velocity_at(before);
-    placement.advance(1e-6);
-    const Vector moved = 1e6 * (placement.place(local) - before);
-    EXPECT_LT(length(moved - velocity), 1e-5);
-    for (int k = 0; k < 100000; ++k)
-        placement.advance(1e-3);
-    EXPECT_NEAR(
-        placement.turn.cosine * placement.turn.cosine + placement.turn.sine * placement.turn.sine,
-        1, 1e-15);
 }
 
 }  // namespace

@@ -190,19 +190,6 @@ TEST(Generators, MakePartsOfTheWhole)
     EXPECT_THROW(load_part("torus:0", 0, 2), BadUsage);
 }
 
-TEST(Torus, HasTheVerticesOfItsFormula)
-{
-    const Scene scene = load_scene("torus:7", {});  // 4 quads, 3 columns, 2 rows
-    ASSERT_EQ(scene.frames[0].size(), 12u);
-    EXPECT_FLOAT_EQ(scene.frames[0][0].x, 1.4f);
-    EXPECT_EQ(scene.frames[0][0].z, 0.0f);
-    EXPECT_FLOAT_EQ(scene.frames[0][4].x, 0.6f);  // half way around the tube
-    const Face second = scene.faces[1];
-    EXPECT_EQ(second.a, 0u);
-    EXPECT_EQ(second.b, 5u);
-    EXPECT_EQ(second.c, 4u);
-}
-
 TEST(Sphere, IsClosedWhenEvenAndAtLeastSix)
 {
     for (const std::size_t count : {6u, 8u, 10u, 100u, 5000u, 65536u}) {
@@ -217,13 +204,6 @@ TEST(Sphere, IsClosedWhenEvenAndAtLeastSix)
             ASSERT_EQ(sides.count({b, a}), 1u) << count;
         }
     }
-}
-
-TEST(Hairball, StaysNearTheUnitBall)
-{
-    const Scene scene = load_scene("hairball:100000", {});
-    for (const Point& point : scene.frames[0])
-        EXPECT_LT(point.x * point.x + point.y * point.y + point.z * point.z, 1.2f);
 }
 
 TEST(Moving, TakesANumberOfFramesAfterTheTriangles)
