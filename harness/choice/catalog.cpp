@@ -212,14 +212,6 @@ void check_filter(const ColliderChoice& choice, const ColliderEntry& entry)
             "off");
 }
 
-/// Throws BadUsage if the collider cannot end at the first contact and is asked to.
-void check_first(const ColliderChoice& choice, const ColliderEntry& entry)
-{
-    if (choice.first && !entry.ends_early)
-        throw BadUsage("the collider " + choice.name +
-                       " finds all pairs; leaf ends at the first contact, as 'first' asks");
-}
-
 }  // namespace
 
 void add_outside(outside::Library library, const outside::Limits& limits)
@@ -335,7 +327,9 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
     check_narrow(choice.narrow, choice.keep_adjacent);
     const ColliderEntry& entry = find_collider(choice.name);
     check_filter(choice, entry);
-    check_first(choice, entry);
+    if (choice.first && !entry.ends_early)
+        throw BadUsage("the collider " + choice.name +
+                       " finds all pairs; leaf ends at the first contact, as 'first' asks");
     if (entry.outside != nullptr)
         return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice);
     if (entry.make == nullptr)

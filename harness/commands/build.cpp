@@ -3,6 +3,7 @@
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
+#include "harness/judge/check.h"
 #include "harness/measure/run.h"
 #include "process/watchdog.h"
 #include "scenes/face_order.h"
@@ -86,11 +87,7 @@ private:
         const Scene scene = in_file_order(load_scene(scene_, session.scenes()));
         const Input input =
             upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
-        Builder& builder = session.builder(choice);
-        builder.reserve(input.triangle_count());
-        const Tree* tree = nullptr;
-        session.build_once(builder, input, Start::from_triangles, &tree);
-        output.replace(dump_text(tree->to_host_tree()));
+        output.replace(dump_text(built_tree(session, choice, input).to_host_tree()));
     }
 
     SeveralNames names_;

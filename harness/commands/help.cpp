@@ -127,13 +127,6 @@ std::string examples_text(std::span<const HelpLine> examples)
     return out;
 }
 
-std::string footer_of(const CommandEntry& help)
-{
-    return wrapped(help.more, 0, 0) + "\n\n" + examples_text(help.examples) +
-           "\nOptions that all commands have, exit codes and environment: bvhbench --help\nMore: " +
-           std::string(help.see);
-}
-
 std::string footer_of_program()
 {
     static constexpr HelpLine examples[] = {
@@ -158,7 +151,10 @@ void add_help(CLI::App& app)
         CLI::App* command = app.get_subcommand(std::string(entry.name));
         command->formatter(app.get_formatter());
         command->group(std::string(entry.group));
-        command->footer(footer_of(entry));
+        command->footer(wrapped(entry.more, 0, 0) + "\n\n" + examples_text(entry.examples) +
+                        "\nOptions that all commands have, exit codes and environment: bvhbench "
+                        "--help\nMore: " +
+                        std::string(entry.see));
     }
 }
 

@@ -66,13 +66,6 @@ std::optional<bool> on_battery(const fs::path& supplies)
     return drawn;
 }
 
-std::optional<double> load_of(const fs::path& path)
-{
-    double load = 0;
-    std::ifstream file(path);
-    return file >> load ? std::optional(load) : std::nullopt;
-}
-
 }  // namespace
 
 Json host_conditions(const std::string& build_type, const fs::path& root)
@@ -97,8 +90,9 @@ Json host_conditions(const std::string& build_type, const fs::path& root)
     const auto turbo = turbo_of(cpus);
     put("turbo", turbo, turbo.value_or(false),
         "turbo is on: clocks depend on temperature and on what other cores do");
-    if (const auto load = load_of(root / "proc/loadavg"))
-        found["load"] = *load;
+    double load = 0;
+    if (std::ifstream(root / "proc/loadavg") >> load)
+        found["load"] = load;
     found["warnings"] = std::move(warnings);
     return found;
 }

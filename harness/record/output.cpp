@@ -91,12 +91,6 @@ std::string contents_of(const std::string& text)
     return "is a result of " + std::to_string(cells) + (cells == 1 ? " cell" : " cells");
 }
 
-std::string random_name()
-{
-    std::random_device random;
-    return hex(std::uint64_t{random()} << 32 | random());
-}
-
 /// True if `path` still names the open file: another process may have removed the file since it was opened.
 bool names(const std::filesystem::path& path, int file)
 {
@@ -201,7 +195,8 @@ Output::Writer::Writer(const Output& output) : output_(output)
                             : open(output.path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     } else {
         temporary_ = output.target_;
-        temporary_ += ".tmp" + random_name();
+        std::random_device random;
+        temporary_ += ".tmp" + hex(std::uint64_t{random()} << 32 | random());
         file_ =
             open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     }
