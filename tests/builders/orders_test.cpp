@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <string>
 #include <vector>
 
-#include "builders/ordered/leaf_order.h"
 #include "geometry/error.h"
-#include "scenes/catalog.h"
 
 namespace bvhbench {
 namespace {
@@ -101,53 +98,6 @@ TEST(Orders, NamesThoseThereAreWhenAskedForAnother)
             expected += (&order == &order_catalog().front() ? " " : ", ") + std::string(order.name);
         EXPECT_EQ(error.what(), expected);
     }
-}
-
-double area(Aabb box)
-{
-    const double x = double{box.max_x} - box.min_x;
-    const double y = double{box.max_y} - box.min_y;
-    const double z = double{box.max_z} - box.min_z;
-    return 2 * (x * y + y * z + z * x);
-}
-
-/// Returns Eq. 1 of [Aila2013] for the tree over leaves in this order: cost 1.2 per inner node, 1 per triangle.
-double sah(const std::vector<Aabb>& boxes, const std::vector<uint>& ids)
-{
-    std::vector<Aabb> level;
-    for (const uint id : ids)
-        level.push_back(boxes[id]);
-    double sum = 0;
-    for (const Aabb& box : level)
-        sum += area(box);
-    while (level.size() > 1) {
-        std::vector<Aabb> above;
-        for (std::size_t k = 0; k < level.size(); k += 2)
-            above.push_back(k + 1 < level.size() ? merged(level[k], level[k + 1]) : level[k]);
-        for (const Aabb& box : above)
-            sum += 1.2 * area(box);
-        level = std::move(above);
-    }
-    return sum / area(level.front());
-}
-
-/// Purpose of the orders: the same tree without pointers has a lower cost over leaves in a better order.
-TEST(OrderQuality, HilbertBeatsMortonAndMediansBeatBoth)
-{
-    const Scene scene = load_scene("torus:60000", {});
-    const auto of_order = [&](const char* name) {
-        const HostLeafOrder order = host_leaf_order(face_boxes(scene.frames[0], scene.faces), name);
-        return sah(order.boxes, order.ids);
-    };
-    const double morton = of_order("morton30");
-    const double hilbert = of_order("hilbert30");
-    const double blocks = of_order("hilbert30+kd1024");
-    const double medians = of_order("kd");
-    std::cout << "SAH: morton30 " << morton << ", hilbert30 " << hilbert << ", hilbert30+kd1024 "
-              << blocks << ", medians everywhere " << medians << '\n';
-    EXPECT_LT(hilbert, morton);
-    EXPECT_LT(blocks, hilbert);
-    EXPECT_LT(medians, blocks);
 }
 
 }  // namespace

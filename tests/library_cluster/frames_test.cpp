@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Frames of the cluster's library have, over all ranks, the pairs of a Tree, list for list, and the contacts of a narrow phase over
-// them, however the triangles are passed.
-#include <deque>
-
+// Frames of the cluster's library have, over all ranks, the pairs of a Tree, list for list, and the contacts among them,
+// however the triangles are passed.
 #include "collide/narrow/narrow.h"
-#include "collide/oracles/host_collider.h"
-#include "geometry/triangle.h"
 #include "tests/library_cluster/rank_scene.h"
 
 namespace bvhbench {
@@ -16,80 +12,21 @@ using oibvh::ClusterOptions;
 using oibvh::DistributedTree;
 using oibvh::FrameCounts;
 
-/// One device, which finds the right pairs and contacts of a whole mesh.
-class Alone {
-public:
-    explicit Alone(cl_command_queue queue)
-        : tree_(oibvh::Device(queue), {.adjacent_pairs = true})
-        , device_(open_device(""))
-        , programs_(device_)
-        , queue_(device_)
-    {
-        for (const bool keep_adjacent : {false, true})
-            narrow_.emplace_back(programs_, NarrowOptions{.keep_adjacent = keep_adjacent});
-    }
-
-    /// Returns the pairs, sorted.
-    std::vector<oibvh::Pair> pairs(const LibraryMesh& mesh, bool adjacent_pairs)
-    {
-        tree_.build(mesh.on_host());
-        tree_.find_pairs();
-        std::vector<oibvh::Pair> pairs = tree_.read_pairs();
-        std::ranges::sort(pairs);
-        const auto corners = [&](std::uint32_t k) {
-            const oibvh::Face face = mesh.faces[k];
-            return Face{face.a, face.b, face.c};
-        };
-        if (!adjacent_pairs)
-            std::erase_if(pairs, [&](oibvh::Pair pair) {
-                return share_a_vertex(corners(pair.a), corners(pair.b));
-            });
-        return pairs;
-    }
-
-    /// Returns those of the pairs that intersect, sorted.
-    std::vector<oibvh::Pair> contacts(const LibraryMesh& mesh,
-                                      const std::vector<oibvh::Pair>& pairs, bool adjacent_pairs)
-    {
-        const Mesh own = mesh.mesh();
-        const Input input = upload(device_, queue_, own.points, own.faces);
-        std::vector<Pair> candidates;
-        for (const oibvh::Pair pair : pairs)
-            candidates.push_back({pair.a, pair.b});
-        if (candidates.empty())
-            return {};
-        DevicePairs on_device = room_for_pairs(device_, candidates.size());
-        copy_pairs(candidates, on_device, queue_);
-        NarrowPhase& narrow = narrow_[adjacent_pairs ? 1 : 0];
-        narrow.reserve(own.faces.size());
-        find_contacts(narrow, input, on_device.pairs, on_device.counters, queue_);
-        std::vector<oibvh::Pair> contacts;
-        for (const Pair pair : narrow.contacts(queue_))
-            contacts.push_back({pair.a, pair.b});
-        std::ranges::sort(contacts);
-        return contacts;
-    }
-
-private:
-    oibvh::Tree tree_;
-    Device device_;
-    Programs programs_;
-    Queue queue_;
-    std::deque<NarrowPhase> narrow_;  ///< by whether it keeps adjacent pairs
-};
+/// Returns those of the pairs that intersect, by the exact test of the host.
+std::vector<oibvh::Pair> contacts_of(const LibraryMesh& mesh, std::vector<oibvh::Pair> pairs,
+                                     bool adjacent_pairs)
+{
+    const Mesh own = mesh.mesh();
+    std::erase_if(pairs, [&](oibvh::Pair pair) {
+        return !triangles_meet(own.points, own.faces, {pair.a, pair.b}, adjacent_pairs);
+    });
+    return pairs;
+}
 
 class ClusterLibrary : public testing::Test {
 protected:
-    static void SetUpTestSuite()
-    {
-        caller = std::make_unique<Caller>();
-        alone = std::make_unique<Alone>(caller->queue);
-    }
-    static void TearDownTestSuite()
-    {
-        alone.reset();
-        caller.reset();
-    }
+    static void SetUpTestSuite() { caller = std::make_unique<Caller>(); }
+    static void TearDownTestSuite() { caller.reset(); }
 
     /// Runs a frame and compares it with that of one device.
     static FrameCounts expect_frame(DistributedTree& tree, const LibraryMesh& mesh,
@@ -110,10 +47,10 @@ protected:
         }
         if (ranks->rank() != 0)
             return counts;
-        const auto right = alone->pairs(mesh, options.tree.adjacent_pairs);
+        const auto right = pairs_of_one(*caller, mesh, options.tree.adjacent_pairs);
         EXPECT_EQ(pairs, right) << name;
         if (options.contacts) {
-            EXPECT_EQ(contacts, alone->contacts(mesh, right, options.tree.adjacent_pairs)) << name;
+            EXPECT_EQ(contacts, contacts_of(mesh, right, options.tree.adjacent_pairs)) << name;
         }
         return counts;
     }
@@ -131,11 +68,9 @@ protected:
     }
 
     static std::unique_ptr<Caller> caller;
-    static std::unique_ptr<Alone> alone;
 };
 
 std::unique_ptr<Caller> ClusterLibrary::caller;
-std::unique_ptr<Alone> ClusterLibrary::alone;
 
 TEST_F(ClusterLibrary, HasThePairsOfATree)
 {
@@ -266,7 +201,7 @@ TEST_F(ClusterLibrary, LeavesTheCallersObjectsAlone)
 TEST_F(ClusterLibrary, TakesAnyCommunicator)
 {
     const LibraryMesh mesh = scene_mesh("torus:2000");
-    const auto right = alone->pairs(mesh, true);
+    const auto right = pairs_of_one(*caller, mesh, true);
     MPI_Comm backwards = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, 0, -static_cast<int>(ranks->rank()), &backwards);
     {
