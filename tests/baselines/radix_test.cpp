@@ -73,18 +73,6 @@ TEST(RadixBuilders, EqualTheReferenceOnManyTriangles)
     ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(many, many), {{}}));
 }
 
-TEST(RadixBuilders, MakeABalancedTreeOfEqualCodes)
-{
-    const Mesh mesh = soup(4096, 1);
-    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
-    for (const MakeBuilder make : makers) {
-        const auto builder = make(bench().programs, {});
-        builder->reserve(4096);
-        EXPECT_EQ(depth_of(builder->build(input, bench().queue).to_host_tree()), 12);
-        bench().queue.finish();
-    }
-}
-
 /// Trees as deep as their keys allow: a builder that fixes its number of launches in advance must enqueue enough.
 TEST(RadixBuilders, EqualTheReferenceOnTheDeepestTreesOfTheirCodes)
 {

@@ -96,20 +96,5 @@ TEST_P(ClosestTest, AreThoseOfTrianglesOfSeveralPairs)
 
 INSTANTIATE_TEST_SUITE_P(Of, ClosestTest, all_classes, ClassName());
 
-TEST(Closest, AreKnownForSimpleTriangles)
-{
-    const Corners flat = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
-    const auto expect = [&](const Corners& other, double distance, Vector a, Vector b) {
-        const Closest found = closest_points(flat, other);
-        EXPECT_EQ(found.distance, distance);
-        EXPECT_LE(length(less(found.a, a)) + length(less(found.b, b)), 0x1p-50);
-    };
-    expect({{{1, 1, 3}, {1, 1, 9}, {2, 1, 9}}}, 3, {1, 1, 0}, {1, 1, 3});  // a corner over a face
-    expect({{{-3, 4, 0}, {-9, 4, 1}, {-9, 4, 2}}}, 3, {0, 4, 0}, {-3, 4, 0});   // two corners
-    expect({{{1, -2, -5}, {1, -2, 5}, {1, -9, 0}}}, 2, {1, 0, 0}, {1, -2, 0});  // two edges
-    expect({{{1, 1, -1}, {1, 1, 1}, {9, 9, 9}}}, 0, {1, 1, 0},
-           {1, 1, 0});  // an edge through a face
-}
-
 }  // namespace
 }  // namespace bvhbench

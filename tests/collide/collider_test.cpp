@@ -173,26 +173,6 @@ TEST(Colliders, TakeEveryTreeOnADeviceButFrontLeafBinaryOnesOnly)
     }
 }
 
-// `bvhbench stress`, family repeats, does a thousand.
-TEST(Colliders, FindOneSetOfPairsInAHundredRepeats)
-{
-    const Standing standing(hard_meshes(900).back().mesh, "oibvh-multi");
-    for (const ColliderEntry& entry : box_colliders(true)) {
-        SCOPED_TRACE(std::string(entry.name));
-        const auto collider = entry.make(session().programs(), {});
-        collider->reserve(standing.tree, standing.input);
-        find_pairs(*collider, standing.tree, standing.input, session().queue());
-        const std::uint64_t hash = PairList(collider->pairs(session().queue())).hash();
-        int others = 0;
-        for (int repeat = 0; repeat < 100; ++repeat) {
-            find_pairs(*collider, standing.tree, standing.input, session().queue());
-            others += PairList(collider->pairs(session().queue())).hash() != hash ? 1 : 0;
-            session().queue().finish();
-        }
-        EXPECT_EQ(others, 0);
-    }
-}
-
 TEST(Colliders, ThatWantATreeOnTheDeviceRefuseOthers)
 {
     const Standing standing(crowded_mesh(200), "median-split");

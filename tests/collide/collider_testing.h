@@ -48,6 +48,11 @@ inline Session& waiting_session()
     return waiting;
 }
 
+/// A collider or builder of a parametrised test, whose name CaseName reads.
+struct Named {
+    const char* name;
+};
+
 struct NamedMesh {
     std::string name;
     Mesh mesh;

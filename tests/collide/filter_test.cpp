@@ -100,9 +100,6 @@ PairList chosen_by_hand(const PairList& pairs, const ManyObjects& many, const Ob
     });
 }
 
-struct Named {
-    const char* name;
-};
 using FilterCase = std::tuple<Named, Named, KernelForm>;
 
 class FilterTest : public testing::TestWithParam<FilterCase> {};

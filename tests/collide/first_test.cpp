@@ -8,10 +8,6 @@
 namespace bvhbench {
 namespace {
 
-struct Named {
-    const char* name;
-};
-
 class FirstTest : public testing::TestWithParam<std::tuple<Named, KernelForm>> {
 protected:
     Standing standing(const Mesh& mesh, std::span<const FaceRange> objects = {}) const

@@ -185,20 +185,6 @@ TEST(NearRule, IsNotUsedForFewTrianglesOnAGpuUnlessForced)
     EXPECT_EQ(skip_rules_off(0, never_used, true, few), 0u);
 }
 
-TEST(NearRule, IsOnlyForPairsBetweenObjects)
-{
-    const ManyObjects many = row(2, 0.9f);
-    const Input input = uploaded(many);
-    for (const Among among : {Among::all, Among::within_objects}) {
-        ColliderChoice choice = between("leaf");
-        choice.among = among;
-        Pipeline pipeline(session(), {.name = "oibvh-multi"}, choice, input);
-        pipeline.prepare(input);
-        EXPECT_FALSE(pipeline.counters().contains("entered_count"));
-        EXPECT_EQ(PairList(pipeline.pairs()), expected_pairs(many, among, false));
-    }
-}
-
 TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
 {
     const ManyObjects many = row(2, 0.9f);

@@ -31,9 +31,6 @@ ManyObjects crowd(std::size_t side)
     return many;
 }
 
-struct Named {
-    const char* name;
-};
 using OrderCase = std::tuple<Named, Named, KernelForm>;
 
 class ObjectOrderTest : public testing::TestWithParam<OrderCase> {

@@ -213,20 +213,6 @@ TEST(SweptBoxes, OfAllBuildersAreThoseOfTheReferenceOrAreRefused)
     }
 }
 
-TEST(SweptBoxes, TakeNoNarrowPhaseOfOneMoment)
-{
-    const Scene scene = falling_triangle();
-    const SweptParts edges = unique_edges(scene);
-    const Input input = swept_input(scene, edges);
-    ColliderChoice narrow = {{.keep_adjacent = false}, "leaf"};
-    narrow.narrow = "exact";
-    EXPECT_THROW(pairs_by({.name = "oibvh-multi"}, narrow, input), BadUsage);
-    if (find_collider("fcl").make != nullptr) {
-        const ColliderChoice fcl = {{.keep_adjacent = false}, "fcl"};
-        EXPECT_THROW(pairs_by({.name = "none"}, fcl, input), BadUsage);
-    }
-}
-
 /// Returns the cells of all steps of a scene.
 std::vector<Cell> cells_of(CollideTask task)
 {
@@ -279,21 +265,6 @@ TEST(SweptSteps, OverRoundedBoxesMissNothing)
         EXPECT_EQ(cell.counters.at("missed_count"), 0);
         EXPECT_GT(cell.counters.at("false_count"), 0);
     }
-}
-
-TEST(SweptSteps, RefuseWhatHasNoMeaningForThem)
-{
-    CollideTask task;
-    task.needs_scene = true;
-    task.scene = "cloth-ball:600:2";
-    task.pipelines = {{{{.order = "kd"}, "oibvh-multi"}, {.name = "leaf"}}};
-    EXPECT_THROW(cells_of(task), BadUsage);
-    task.pipelines = {{{.name = "oibvh-multi"}, {.name = "leaf"}}};
-    task.objects = ObjectsBy::components;
-    EXPECT_THROW(cells_of(task), BadUsage);
-    task.objects = ObjectsBy::automatic;
-    task.scene = "torus:600";
-    EXPECT_THROW(cells_of(task), Unavailable);
 }
 
 TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)

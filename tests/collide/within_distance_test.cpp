@@ -9,10 +9,6 @@
 namespace bvhbench {
 namespace {
 
-struct Named {
-    const char* name;
-};
-
 /// Returns the oracle's pairs.
 PairList oracle(const Input& input, double distance, bool keep_adjacent, Among among = Among::all)
 {
@@ -203,40 +199,6 @@ bool two_within(const Mesh& mesh, double distance)
     const bool is_within = asked(standing, "all-pairs", options).pairs.size() == 1;
     EXPECT_EQ(are_within(mesh.points, mesh.faces, {0, 1}, options), is_within);
     return is_within;
-}
-
-/// Two triangles whose nearest points are those of corner `i` or edge `i` of the first and of corner, edge or face `j` of the second.
-enum class Nearest { edges, first_corner, second_corner };
-Mesh nearest_by(Nearest what, uint i, uint j)
-{
-    // An edge along x and one along y, 5 apart, or a corner above the inside of a face; all other corners are far from both.
-    const Point low[] = {{-9, 0, 0}, {8, 0, 0}, {1, 2, -90}};
-    const Point high[] = {{0, -7, 5}, {0, 9, 5}, {3, 1, 90}};
-    const Point face[] = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}},
-                above[] = {{0, 0, 5}, {50, 0, 60}, {0, 50, 60}};
-    Mesh mesh = {std::vector<Point>(6), {{0, 1, 2}, {3, 4, 5}}};
-    for (uint k = 0; k < 3; ++k) {
-        mesh.points[(i + k) % 3] = what == Nearest::edges          ? low[k]
-                                   : what == Nearest::first_corner ? above[k]
-                                                                   : face[k];
-        mesh.points[3 + (j + k) % 3] = what == Nearest::edges          ? high[k]
-                                       : what == Nearest::first_corner ? face[k]
-                                                                       : above[k];
-    }
-    return mesh;
-}
-
-TEST_F(WithinDistance, IsThatOfEachPairOfFeatures)
-{
-    for (const Nearest what : {Nearest::edges, Nearest::first_corner, Nearest::second_corner})
-        for (uint k = 0; k < 9; ++k) {
-            const Mesh mesh = nearest_by(what, k / 3, k % 3);
-            EXPECT_TRUE(two_within(mesh, 5));
-            EXPECT_FALSE(two_within(mesh, std::nextafter(5.0, 0.0)));
-            const WithinOptions sure = {.distance = 5.001};
-            EXPECT_EQ(asked(Standing(mesh, nullptr), "all-pairs", sure).exactly, 0u)
-                << "doubles do not see what is nearest";
-        }
 }
 
 TEST_F(WithinDistance, IsSeldomLeftToExactArithmetic)

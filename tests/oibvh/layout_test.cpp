@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "oibvh/layout_check.h"
 #include "oibvh/layout_probe.h"
 #include "tests/oibvh/literal_tree.h"
@@ -179,17 +177,6 @@ TEST_P(LayoutOf, HoldsUpToTheMostLeavesThatFit)
 
 INSTANTIATE_TEST_SUITE_P(Layouts, LayoutOf, testing::ValuesIn(layouts()),
                          [](const auto& tested) { return tested.param.name; });
-
-TEST(KaryLayoutOfTwo, IsTheBinaryLayoutUpToItsLastLeaf)
-{
-    for (const uint leaves :
-         {2047u, 2048u, 2049u, (1u << 24) + 1, (1u << 30) + 1, (1u << 31) - 1, 1u << 31}) {
-        const LayoutQuestion last_leaf = {leaves, 2,
-                                          oi_first(oi_shape(leaves).leaf_level) + leaves - 1};
-        const LayoutAnswers binary = oi_answers(last_leaf), kary = kary_answers(last_leaf);
-        EXPECT_EQ(std::memcmp(&binary, &kary, sizeof binary), 0) << leaves;
-    }
-}
 
 class OiLayoutAt : public testing::TestWithParam<uint> {};
 

@@ -34,16 +34,6 @@ TEST(WideLayout, IsAppendixCsOfInnerNodes)
         }
 }
 
-TEST(WideLayout, PutsANodeAboveASingleLeaf)
-{
-    for (const uint bits : {2u, 3u}) {
-        EXPECT_EQ(wide_leaf_level(1, bits), 1u);
-        EXPECT_EQ(wide_real_on(1, bits, 0), 1u);
-        EXPECT_EQ(wide_real_on(1, bits, 1), 1u);
-        EXPECT_EQ(wide_inner_count(1, bits), 1u);
-    }
-}
-
 struct Way {
     const char* name;
     MakeBuilder make;
