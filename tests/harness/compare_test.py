@@ -55,8 +55,6 @@ def test_changed_facts_and_missing_cells_are_told_and_fail() -> None:
     written("pairs.json", valid("pairs.json"))
     for file, change, code, says, *words in (
             ("a.json", lambda cell: cell["counters"].update(sah_cost=1 + cell["counters"]["sah_cost"]), 1, "REGRESSION torus:3000: "),
-            ("a.json", lambda cell: cell["counters"].update(sah_cost=0), 0, "changed torus:3000: "),
-            ("a.json", lambda cell: cell.update(check={"verdict": "differs", "detail": "box 7"}), 1, "differs (box 7), was agrees"),
             ("a.json", lambda cell: cell["scene"].update(name="other"), 1, "not in B"),
             ("a.json", lambda cell: cell["scene"].update(name="other"), 0, "not in B", "--allow-missing"),
             ("pairs.json", lambda cell: cell["counters"].update(pairs_count=1 + cell["counters"]["pairs_count"]), 1, "pairs_count")):

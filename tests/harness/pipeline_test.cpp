@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "collide/oracles/box_pairs.h"
 #include "collide/skips.h"
 #include "harness/measure/device_verdict.h"
@@ -87,20 +85,6 @@ TEST(Pipeline, LeavesAloneWhatHasNotMoved)
     expect_counts(scene, "oibvh-multi", 0, {1, 0, 1, 1});
     expect_counts(scene, "oibvh-multi", skip_unchanged, {1, 1, 0, 1});
     expect_counts(scene, "oibvh-multi", skip_unchanged | skip_rigid, {2, 0, 0, 1});
-}
-
-TEST(Pipeline, RebuildsOfARealMixedSceneOnlyWhatDeforms)
-{
-    if (const char* folder = std::getenv("BVHBENCH_DATA"); folder == nullptr || *folder == '\0')
-        GTEST_SKIP() << "BVHBENCH_DATA is not set";
-    const Scene scene = load_scene("unc_cloth_ball", scene_library({}));
-    if (scene.objects.size() != 2)
-        GTEST_SKIP() << "has " << scene.objects.size() << " objects";
-    PipelineFrames frames(scene, "oibvh-multi", 0);
-    frames.go_to(0, {});
-    const Counts counts = counts_of(frames.go_to(1, object_motions(scene, 0, 1)));
-    EXPECT_EQ(counts[0], 1);
-    EXPECT_EQ(counts[1] + counts[2], 1);
 }
 
 TEST(Transfers, AreOfPipelinesThatReadOrWriteTheDevice)

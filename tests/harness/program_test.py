@@ -19,8 +19,7 @@ SENTENCES = (
     (2, "build --builder x --scene soup:5", "there are: perfect, "),
     (2, "build --builder perfect --scene no-such", "no-such"),
     (2, f"{PERFECT} --order x", "there are: morton30"),
-    *((2, f"{PERFECT} --sah-inner {value}", f"--sah-inner: must be a number from 0 to 1000000, not '{value}'")
-      for value in ("nan", "-1", "many")),
+    (2, f"{PERFECT} --sah-inner nan", "--sah-inner: must be a number from 0 to 1000000, not 'nan'"),
     (2, "collide --builder perfect --collider x --scene soup:5", "there are: leaf, "),
     (2, "collide --builder perfect --collider leaf --scene soup:5 --pairs p.txt", "to .csv or .bin"),
     (4, "collide --builder oibvh-wide4 --collider front-leaf --scene soup:5", "front-leaf needs a binary tree"),
