@@ -13,14 +13,8 @@ namespace {
 
 constexpr uint pairs_a_class = 20'000;
 
-class Narrow : public testing::TestWithParam<std::tuple<KernelForm, bool>> {
+class Narrow : public WithCgal<testing::TestWithParam<std::tuple<KernelForm, bool>>> {
 protected:
-    void SetUp() override
-    {
-        if (!has_exact_reference)
-            GTEST_SKIP() << "built without CGAL: nothing is compared";
-    }
-
     NarrowOptions options(bool keep_adjacent) const
     {
         return {.keep_adjacent = keep_adjacent,

@@ -43,14 +43,19 @@ struct Candidates {
     }
 };
 
-/// Tests of one class of pairs each. Skipped without CGAL, which they compare with.
-class OfAClass : public testing::TestWithParam<PairClass> {
+/// Tests that compare with CGAL, and are skipped without it.
+template <class Test>
+class WithCgal : public Test {
+protected:
     void SetUp() override
     {
         if (!has_exact_reference)
             GTEST_SKIP() << "built without CGAL: nothing is compared";
     }
 };
+
+/// Tests of one class of pairs each.
+class OfAClass : public WithCgal<testing::TestWithParam<PairClass>> {};
 
 struct ClassName {
     std::string operator()(const testing::TestParamInfo<PairClass>& of) const

@@ -51,16 +51,13 @@ def test_a_hook_that_cannot_be_read_is_refused_and_none_may_tune() -> None:
 
 
 def test_changed_facts_and_missing_cells_are_told_and_fail() -> None:
-    expect(0, "collide", "--collider", "leaf", "--scene", "soup:500", "--samples", "1", "--json", "pairs.json")
-    written("pairs.json", valid("pairs.json"))
-    for file, change, code, says, *words in (
-            ("a.json", lambda cell: cell["counters"].update(sah_cost=1 + cell["counters"]["sah_cost"]), 1, "REGRESSION torus:3000: "),
-            ("a.json", lambda cell: cell["scene"].update(name="other"), 1, "not in B"),
-            ("a.json", lambda cell: cell["scene"].update(name="other"), 0, "not in B", "--allow-missing"),
-            ("pairs.json", lambda cell: cell["counters"].update(pairs_count=1 + cell["counters"]["pairs_count"]), 1, "pairs_count")):
-        after = valid(file)
+    for change, code, says, *words in (
+            (lambda cell: cell["counters"].update(sah_cost=1 + cell["counters"]["sah_cost"]), 1, "REGRESSION torus:3000: "),
+            (lambda cell: cell["scene"].update(name="other"), 1, "not in B"),
+            (lambda cell: cell["scene"].update(name="other"), 0, "not in B", "--allow-missing")):
+        after = valid("a.json")
         change(after["cells"][0])
-        compared(code, file, written("b.json", after), *words, says=says)
+        compared(code, "a.json", written("b.json", after), *words, says=says)
 
 
 def test_what_cannot_be_compared_is_refused_in_a_sentence() -> None:
