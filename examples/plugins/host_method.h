@@ -30,11 +30,10 @@ inline bool overlap(const Box& a, const Box& b)
 
 inline unsigned thread_count() { return std::max(1u, std::thread::hardware_concurrency()); }
 
-/// Calls `act(thread, k)` for every k below `count`, on all cores; each takes 512 numbers at a time.
+/// Calls `act(thread, k)` for every k below `count`, on all cores; each takes `part` numbers at a time.
 template <class Act>
-void in_parallel(uint32_t count, const Act& act)
+void in_parallel(uint32_t count, const Act& act, uint32_t part = 512)
 {
-    constexpr uint32_t part = 512;
     std::atomic<uint64_t> next{0};
     const auto work = [&](unsigned thread) {
         for (uint64_t begin; (begin = next.fetch_add(part)) < count;)

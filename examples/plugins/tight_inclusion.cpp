@@ -21,8 +21,9 @@ public:
     void answer(bvhbench_stages& stages)
     {
         const auto start = std::chrono::steady_clock::now();
-        adapter::in_parallel(static_cast<uint32_t>(queries_.count),
-                             [this](unsigned, uint32_t k) { times_[k] = time_of(k); });
+        adapter::in_parallel(
+            static_cast<uint32_t>(queries_.count),
+            [this](unsigned, uint32_t k) { times_[k] = time_of(k); }, 1);
         const std::chrono::nanoseconds passed = std::chrono::steady_clock::now() - start;
         adapter::add_stage(stages, "narrow", 0, static_cast<uint64_t>(passed.count()), false);
     }
