@@ -208,7 +208,7 @@ def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     kinds = results.grouped(cells, kind_of)
     drawing, rows = figure.grid(2, len(kinds), 5.2, sharey="row", sharex="col")
     counted = {kind: [(method, {key: sum(cell.counters[key] for cell in own) for key in ("queries_count", "touching_count", "missed_count", "late_count", "false_count")},
-                       sum(1e9 * median_s(cell) / cell.counters["copies_count"] for cell in own),
+                       sum(1e6 * median_s(cell) / cell.counters["copies_count"] for cell in own),
                        sum(cell.counters["shortened_mean"] * cell.counters["queries_count"] for cell in own))
                       for method, own in results.grouped(group, lambda cell: cell.accuracy["method"]).items()] for kind, group in kinds.items()}
     for row, name in enumerate(("false, of those apart", "loss of a step, mean")):
@@ -220,13 +220,13 @@ def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
         for axes, (kind, points) in zip(rows[row], panels.items(), strict=True):
             unsafe = [", ".join(f"{count[key]:,} {word}" for key, word in (("missed_count", "missed"), ("late_count", "late")) if count[key])
                       for _, count, _, _ in counted[kind]]
-            log_times(axes, points, 4)
+            log_times(axes, points, 5)
             draw_points(axes, "queries", points, [point for point, words in zip(points, unsafe, strict=True) if not words])
             for point, words in zip(points, unsafe, strict=True):
                 if words and row == 0:
-                    axes.annotate(words, point[:2], (5, -2), textcoords="offset points", fontsize=style.SMALL)
+                    axes.annotate(words, point[:2], (5, 2), textcoords="offset points", fontsize=style.SMALL)
             (axes.set_xlabel if row else lambda title: axes.set_title(title, loc="left", fontsize=6.5))(
-                "ns a query" if row else f"{kind}\n{counted[kind][0][1]['queries_count']:,} queries, {counted[kind][0][1]['touching_count']:,} touch")
+                "µs a query" if row else f"{kind}\n{counted[kind][0][1]['queries_count']:,} queries, {counted[kind][0][1]['touching_count']:,} touch")
     figure.footer(drawing, run, "accuracy", (
         "Queries of continuous collision detection in doubles, against CGAL's exact times. Left and down is better. Filled, joined: no other "
         "method is as good in both, of those that miss no touch and are never late. Loss: from the time found to the right one, or to the end of the step if nothing touches. "
