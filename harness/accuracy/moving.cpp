@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "collide/impacts/impact_queries.h"
+#include "collide/moving/impact_queries.h"
 #include "collide/oracles/swept_reference.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"

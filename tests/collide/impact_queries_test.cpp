@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "collide/impacts/impact_queries.h"
+#include "collide/moving/impact_queries.h"
 #include "collide/oracles/swept_reference.h"
 #include "tests/collide/narrow_testing.h"
 

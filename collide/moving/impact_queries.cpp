@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "collide/impacts/impact_queries.h"
+#include "collide/moving/impact_queries.h"
 
 #include <algorithm>
 #include <cassert>
@@ -51,7 +51,7 @@ ImpactQueries::ImpactQueries(Programs& programs, const QueryMethod& method)
 {
     if (!has_doubles(programs.device()))
         throw Unavailable("queries of moving points are in doubles, which the device has not");
-    kernel_ = programs.kernel("collide/impacts/queries.cl", "time_impacts",
+    kernel_ = programs.kernel("collide/moving/queries.cl", "time_impacts",
                               {{"MOST_STEPS", most_steps(method)},
                                {"REAL_BITS", method.real_bits},
                                {"ANSWER", method.answer}});

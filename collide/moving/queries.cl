@@ -7,10 +7,10 @@
 // Queries of moving points in doubles, without a tree: when does each touch first?
 //
 //     ANSWER    1: advance.clh, which misses nothing; 2: additive.clh, 3: roots.clh, as computed
-#include "collide/impacts/advance.clh"
+#include "collide/moving/advance.clh"
 #if HAS_DOUBLES
-#include "collide/impacts/additive.clh"
-#include "collide/impacts/roots.clh"
+#include "collide/moving/additive.clh"
+#include "collide/moving/roots.clh"
 
 /// Returns vertex `vertex` of query `place`. Each of the 12 coordinates of a frame is an array of `count`.
 static inline double3 vertex_of(global const double* points, const uint vertex, const uint place,
