@@ -18,7 +18,8 @@ public:
     {
         app.add_option("--axis", axis_, "a name of `list accuracy`; default: all in turn");
         app.add_option("--scene", task_.scenes,
-                       "scenes, data sets or mesh files, of axes about scenes; of the axis queries files of them");
+                       "scenes, data sets or mesh files, of axes about scenes; of the axis queries "
+                       "files of them");
         app.add_option("--pairs", task_.pairs,
                        "pairs of triangles in all, of the axis narrow, at least one a class")
             ->capture_default_str()
