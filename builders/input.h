@@ -39,7 +39,7 @@ struct Input {
         Input wide = *this;
         wide.device_points = low;
         wide.device_end_points = high;
-        wide.end_points = points;  // says that it is swept
+        wide.end_points = points;  // as many as there are, and not swept
         return wide;
     }
 

@@ -205,6 +205,8 @@ private:
 
     Json times(const Json& request)
     {
+        if (method_->times == nullptr)
+            throw Unavailable("its method lacks this call");
         const double* times = nullptr;
         require_success(method_->times(state_, &times));
         write_array(request, "times", times, queries_.count);

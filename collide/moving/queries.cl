@@ -68,9 +68,9 @@ kernel void time_impacts(global const double* from, global const double* to, con
             const Hull first = scaled(start, factor), last = scaled(end, factor);
             const Real near = (Real)(tolerance * size * factor);
 #if ANSWER == 1
-            impact = advance(first, last, near, 0);
+            impact = advance(first, last, near);
 #elif ANSWER == 2
-            impact = add_up(first, last, most_motion(at, end_at, of_edges) * factor, near);
+            impact = add_up(first, last, most_motion(at, end_at, of_edges) * factor);
 #else
             impact = first_root(first, last, near);
 #endif

@@ -103,6 +103,21 @@ void prepare(Session& session, const outside::Offer& offer, const QuerySet& set,
 void measure_set(const AxisRun& run, const QuerySet& set, const std::string& name,
                  const std::string& source)
 {
+    Times right;
+    std::vector<AxisMethod> methods;
+    const auto add = [&](std::string_view called, const auto& method) {
+        if (run.task.wants(name, called))
+            methods.push_back({.name = std::string(called), .prepare = [&](Measurement& one) {
+                                   prepare(run.session, method, set, right, one);
+                               }});
+    };
+    for (const QueryMethod& method : query_methods())
+        add(method.name, method);
+    for (const outside::Offer* offer : outside_answers())
+        add(offer->method.name, *offer);
+    if (methods.empty())
+        return;
+    right = impact_times(set.queries);
     SceneFacts facts;
     facts.name = name;
     facts.source = source;
@@ -115,21 +130,10 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
         for (const auto& points : {query.from, query.to})
             hash.values(std::span<const WidePoint>(points));
     facts.content_hash = hash.get();
-    const Times right = impact_times(set.queries);
     for (std::size_t k = 0; k < set.published.size(); ++k)
         if (right[k].has_value() != (set.published[k] != 0))
             run.session.scenes().tell(name + ": query " + std::to_string(k) + " is published to " +
                                       (right[k] ? "pass, and touches" : "touch, and passes"));
-    std::vector<AxisMethod> methods;
-    const auto add = [&](std::string_view called, const auto& method) {
-        methods.push_back({.name = std::string(called), .prepare = [&](Measurement& one) {
-                               prepare(run.session, method, set, right, one);
-                           }});
-    };
-    for (const QueryMethod& method : query_methods())
-        add(method.name, method);
-    for (const outside::Offer* offer : outside_answers())
-        add(offer->method.name, *offer);
     measure_methods(run, "queries", facts, methods);
 }
 

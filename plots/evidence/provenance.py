@@ -30,7 +30,7 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
 OF_WITHIN = {"within": ("collide/within/", "collide/narrow/")}
-OF_SWEPT = {"narrow between frames": ("collide/impacts/",)}  # in place of `narrow`
+OF_SWEPT = {"narrow between frames": ("collide/impacts/",), "narrow of queries": ("collide/moving/",)}  # in place of `narrow`
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "builders/implicit/", PRINTED), "oibvh": ("oibvh/", "builders/implicit/"),
@@ -92,10 +92,15 @@ def is_of_many(cell: Cell) -> bool:
     return cell.collider in COLLIDERS and cell.scene_facts.get("objects", 0) >= MANY_OBJECTS
 
 
+def narrow_of(cell: Cell) -> str:
+    """Returns the entry of STAGES or OF_SWEPT that a cell's stage `narrow` is."""
+    return "narrow of queries" if cell.accuracy.get("axis") == "queries" else "narrow between frames" if cell.swept else "narrow"
+
+
 def works(document: dict[str, Any]) -> set[Work]:
     """Returns what the cells of a result file did. `bvhbench stress` launches all kernels but those of several ranks."""
     cells = [Cell(raw) for raw in document["cells"]]
-    found = {Work(cell.builder, cell.collider or "", (*(f"{stage} between frames" if cell.swept and stage == "narrow" else stage
+    found = {Work(cell.builder, cell.collider or "", (*(narrow_of(cell) if stage == "narrow" else stage
                                                         for stage in cell.samples[0]), *(("objects",) if is_of_many(cell) else ()),
                                                         *(OF_FIRST if "first_contact" in cell.raw else ()),
                                                         *(OF_WITHIN if "within_distance" in cell.raw else ())))

@@ -199,38 +199,39 @@ def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 def kind_of(cell: results.Cell) -> str:
     """Returns the data set of queries, if it is one, and their kind: "ccd_wang2021, edge-edge"."""
-    *of, _, kind = cell.scene.split("/")
-    return ", ".join([*of, kind.split()[0]])
+    return ", ".join([*cell.scene.split("/")[:-2], cell.scene.split("/")[-1].split()[0]])
+
+
+def means_of(cells: list[results.Cell]) -> dict[str, Any]:
+    """Returns what a method takes, gives away and gets wrong over all queries of some cells."""
+    queries, touching, false = (sum(cell.counters[f"{key}_count"] for cell in cells) for key in ("queries", "touching", "false"))
+    unsafe = (f"{count:,} {word}" for word in ("missed", "late") if (count := sum(cell.counters[f"{word}_count"] for cell in cells)))
+    return {"false": false / max(1, queries - touching), "unsafe": ", ".join(unsafe),
+            "of": f"{queries:,} queries, {touching:,} touch", "time": sum(1e6 * median_s(cell) / cell.counters["copies_count"] for cell in cells) / queries,
+            "loss": sum(cell.counters["shortened_mean"] * cell.counters["queries_count"] for cell in cells) / queries}
 
 
 def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     """Draws a column a kind of queries; a method that misses a touch, or says it later than it is, is on no front."""
-    kinds = results.grouped(cells, kind_of)
+    kinds = {kind: {method: means_of(own) for method, own in results.grouped(group, lambda cell: cell.accuracy["method"]).items()}
+             for kind, group in results.grouped(cells, kind_of).items()}
     drawing, rows = figure.grid(2, len(kinds), 5.2, sharey="row", sharex="col")
-    counted = {kind: [(method, {key: sum(cell.counters[key] for cell in own) for key in ("queries_count", "touching_count", "missed_count", "late_count", "false_count")},
-                       sum(1e6 * median_s(cell) / cell.counters["copies_count"] for cell in own),
-                       sum(cell.counters["shortened_mean"] * cell.counters["queries_count"] for cell in own))
-                      for method, own in results.grouped(group, lambda cell: cell.accuracy["method"]).items()] for kind, group in kinds.items()}
-    for row, name in enumerate(("false, of those apart", "loss of a step, mean")):
-        panels = {kind: [Point(time / count["queries_count"], loss / count["queries_count"] if row else
-                               count["false_count"] / max(1, count["queries_count"] - count["touching_count"]), method)
-                         for method, count, time, loss in those] for kind, those in counted.items()}
-        from_zero(rows[row][0].yaxis, [point.error for points in panels.values() for point in points], 1e-4, 1e-3, lambda share: f"{share:.0e}", 6)
-        rows[row][0].set_ylabel(name)
-        for axes, (kind, points) in zip(rows[row], panels.items(), strict=True):
-            unsafe = [", ".join(f"{count[key]:,} {word}" for key, word in (("missed_count", "missed"), ("late_count", "late")) if count[key])
-                      for _, count, _, _ in counted[kind]]
+    for row, (error, name) in zip(rows, {"false": "false, of those apart", "loss": "loss of a step, mean"}.items(), strict=True):
+        from_zero(row[0].yaxis, [means[error] for methods in kinds.values() for means in methods.values()], 1e-4, 1e-3, lambda share: f"{share:.0e}", 6)
+        row[0].set_ylabel(name)
+        for axes, methods in zip(row, kinds.values(), strict=True):
+            points = [Point(means["time"], means[error], method) for method, means in methods.items()]
             log_times(axes, points, 5)
-            draw_points(axes, "queries", points, [point for point, words in zip(points, unsafe, strict=True) if not words])
-            for point, words in zip(points, unsafe, strict=True):
-                if words and row == 0:
-                    axes.annotate(words, point[:2], (5, 2), textcoords="offset points", fontsize=style.SMALL)
-            (axes.set_xlabel if row else lambda title: axes.set_title(title, loc="left", fontsize=6.5))(
-                "µs a query" if row else f"{kind}\n{counted[kind][0][1]['queries_count']:,} queries, {counted[kind][0][1]['touching_count']:,} touch")
+            draw_points(axes, "queries", points, [point for point in points if not methods[point.method]["unsafe"]])
+            for point in points if error == "false" else ():
+                axes.annotate(methods[point.method]["unsafe"], point[:2], (5, 2), textcoords="offset points", fontsize=style.SMALL)
+    for top, bottom, (kind, methods) in zip(*rows, kinds.items(), strict=True):
+        top.set_title(f"{kind}\n{next(iter(methods.values()))['of']}", loc="left", fontsize=6.5)
+        bottom.set_xlabel("µs a query")
     figure.footer(drawing, run, "accuracy", (
-        "Queries of continuous collision detection in doubles, against CGAL's exact times. Left and down is better. Filled, joined: no other "
-        "method is as good in both, of those that miss no touch and are never late. Loss: from the time found to the right one, or to the end of the step if nothing touches. "
-        "Times: medians.",), legend(drawing, "queries", cells, 5))
+        "Queries of continuous collision detection in doubles, against CGAL's exact times. Left and down is better. Filled, joined: no other method "
+        "is as good in both, of those that miss no touch and are never late. Loss: from the time found to the right one, or to the end of the "
+        "step if nothing touches. Times: medians.",), legend(drawing, "queries", cells, 5))
     return drawing
 
 

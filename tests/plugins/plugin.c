@@ -323,32 +323,21 @@ static void destroy(void *state)
     free(s);
 }
 
+/* What both methods of pairs have. */
+#define OF_PAIRS                                                                        \
+    .create = create, .prepare = prepare, .load = load, .query = query, .pairs = pairs, \
+    .bytes = bytes, .error = error, .destroy = destroy
+
 const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
 {
     static bvhbench_method methods[] = {
         {.name = "halves",
          .summary = "halves in the given order, and every two boxes",
-         .create = create,
-         .prepare = prepare,
-         .load = load,
+         OF_PAIRS,
          .build = build,
          .refit = refit,
-         .query = query,
-         .pairs = pairs,
-         .tree = tree,
-         .bytes = bytes,
-         .error = error,
-         .destroy = destroy},
-        {.name = "every-two",
-         .summary = "no tree: every two boxes",
-         .create = create,
-         .prepare = prepare,
-         .load = load,
-         .query = query,
-         .pairs = pairs,
-         .bytes = bytes,
-         .error = error,
-         .destroy = destroy},
+         .tree = tree},
+        {.name = "every-two", .summary = "no tree: every two boxes", OF_PAIRS},
         {.name = "at-the-start",
          .summary = "all touch at the start",
          .create = create,

@@ -17,6 +17,8 @@ TEST(Catalog, NamesWhatIsKnownWhenAskedForSomethingElse)
         EXPECT_TRUE(contains(message, known));
     EXPECT_TRUE(contains(refusal("bunni"), "BadUsage: no scene is called 'bunni'"));
     EXPECT_TRUE(contains(refusal(""), "BadUsage: no scene is called ''"));
+    EXPECT_TRUE(
+        contains(refusal("ccd_wang2021"), "BadUsage: ccd_wang2021 is no scene but queries"));
 }
 
 TEST(Catalog, TakesOnlyAPlainTriangleCount)
