@@ -66,13 +66,12 @@ kernel void time_impacts(global const double* from, global const double* to, con
             // 2^k: all coordinates are below 1
             const double factor = as_double((2045ul - (as_ulong(size) >> 52)) << 52);
             const Hull first = scaled(start, factor), last = scaled(end, factor);
-            const Real near = (Real)(tolerance * size * factor);
-#if ANSWER == 1
-            impact = advance(first, last, near);
-#elif ANSWER == 2
+#if ANSWER == 2
             impact = add_up(first, last, most_motion(at, end_at, of_edges) * factor);
+            (void)tolerance;
 #else
-            impact = first_root(first, last, near);
+            const Real near = (Real)(tolerance * size * factor);
+            impact = ANSWER == 1 ? advance(first, last, near) : first_root(first, last, near);
 #endif
         }
         times[place] = impact.time;
