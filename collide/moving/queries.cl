@@ -71,7 +71,7 @@ kernel void time_impacts(global const double* from, global const double* to, con
             (void)tolerance;
 #else
             const Real near = (Real)(tolerance * size * factor);
-            impact = ANSWER == 1 ? advance(first, last, near) : first_root(first, last, near);
+            impact = ANSWER == 1 ? advance(first, last, near, 0) : first_root(first, last, near);
 #endif
         }
         times[place] = impact.time;

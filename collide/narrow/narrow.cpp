@@ -129,7 +129,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     if (is_swept()) {
         tolerance_ = method.tolerance * *options.swept_size;
         filter_ = programs.kernel("collide/impacts/impacts.cl", "find_impacts",
-                                  {{"MOST_STEPS", most_steps}});
+                                  {{"MOST_STEPS", most_steps}, {"REAL_BITS", 32}});
         return;
     }
     if (method.real_bits == 64 && !has_doubles_)
