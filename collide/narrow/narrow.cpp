@@ -11,13 +11,14 @@
 #include "collide/narrow/narrow_words.h"
 #include "collide/narrow/sharing.h"
 #include "collide/parameters.h"
+#include "collide/within/within_words.h"
 #include "geometry/bits.h"
 #include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
 
-// To add a rounded method: add a line here and its kernel code to rounded.clh. Methods for swept boxes are last.
+// To add a rounded method: add a line here and its kernel code to rounded.clh. In the order of NarrowOf.
 constexpr NarrowMethod catalog[] = {
     {"filter-f64+exact", "floats, then doubles with error bounds, then exact sums: no error", true},
     {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
@@ -30,6 +31,16 @@ constexpr NarrowMethod catalog[] = {
      1e-4f},
     {"ccd-1e-6", "swept: none missed, false ones within 1e-6 of the scene's size", false, 0, 32,
      1e-6f},
+    {"within-f64", "distances: in doubles, as computed", false, 0, 64, 0, WITHIN_COMPUTED},
+    {"within-f32", "distances: in floats, as computed", false, 0, 32, 0, WITHIN_COMPUTED},
+    {"within-capsules", "distances: between capsules around the triangles, none missed", false, 0,
+     32, 0, WITHIN_CAPSULES},
+    {"within-spheres", "distances: between spheres around the triangles, none missed", false, 0, 32,
+     0, WITHIN_SPHERES},
+    {"within-rounded-boxes", "distances: between the triangles' boxes, none missed", false, 0, 32,
+     0, WITHIN_ROUNDED_BOXES},
+    {"within-boxes", "distances: padded boxes that overlap, none missed", false, 0, 32, 0,
+     WITHIN_BOXES},
 };
 
 /// Steps of a method for swept boxes; a pair that needs more is taken to touch.
@@ -69,14 +80,14 @@ bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, 
 
 std::span<const NarrowMethod> narrow_methods() { return catalog; }
 
-std::span<const NarrowMethod> moment_narrow_methods()
+std::span<const NarrowMethod> narrow_methods(NarrowOf question)
 {
-    return {std::begin(catalog), std::ranges::find_if(catalog, &NarrowMethod::is_swept)};
+    return std::ranges::equal_range(catalog, question, {}, &NarrowMethod::of);
 }
 
-std::span<const NarrowMethod> swept_narrow_methods()
+bool NarrowMethod::misses_none() const
 {
-    return narrow_methods().subspan(moment_narrow_methods().size());
+    return is_exact || (rounded_test == 0 && within_test != WITHIN_COMPUTED);
 }
 
 const NarrowMethod& find_narrow_method(std::string_view name)
@@ -91,22 +102,31 @@ void check_narrow(std::string_view name, bool keep_adjacent)
     if (name == "none")
         return;
     const NarrowMethod& method = find_narrow_method(name);
-    if (!method.is_exact && !method.is_swept() && keep_adjacent)
+    if (method.rounded_test != 0 && keep_adjacent)
         throw BadUsage("--narrow " + std::string(name) +
                        " cannot tell what triangles that share a corner have beyond it: it needs "
                        "--adjacent drop");
 }
 
-void check_narrow_of(std::string_view name, bool swept)
+void check_narrow_of(std::string_view name, NarrowOf question)
 {
-    if (name == "none" || find_narrow_method(name).is_swept() == swept)
+    if (name == "none")
+        return;
+    const NarrowMethod& method = find_narrow_method(name);
+    if (method.of() == question || (method.is_exact && question == NarrowOf::distance))
         return;
     const std::string quoted = "'" + std::string(name) + "'";
-    if (!swept)
-        throw BadUsage("the narrow phase " + quoted +
-                       " looks at the way between two frames: it needs swept boxes");
-    throw BadUsage("swept boxes are of the way between two frames, and the narrow phase " + quoted +
-                   " looks at one moment" + there_are(name, names_of(swept_narrow_methods())));
+    const std::string others = there_are(name, names_of(narrow_methods(question)));
+    if (question == NarrowOf::step)
+        throw BadUsage("swept boxes are of the way between two frames, and the narrow phase " +
+                       quoted + " looks at one moment" + others);
+    if (question == NarrowOf::distance)
+        throw BadUsage("'within' is about distances, and the narrow phase " + quoted + " is not" +
+                       others);
+    throw BadUsage("the narrow phase " + quoted +
+                   (method.of() == NarrowOf::step
+                        ? " looks at the way between two frames: it needs swept boxes"
+                        : " is about a distance: it needs 'within'"));
 }
 
 NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
@@ -123,7 +143,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     else
         block_pairs_ = pairs_in_block;
     check_narrow(options.method, options.keep_adjacent);
-    check_narrow_of(options.method, is_swept());
+    check_narrow_of(options.method, is_swept() ? NarrowOf::step : NarrowOf::moment);
     const NarrowMethod& method = find_narrow_method(options.method);
     options_.method = method.name;  // refers to static storage
     if (is_swept()) {

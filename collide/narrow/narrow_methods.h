@@ -6,26 +6,35 @@
 
 namespace bvhbench {
 
-/// A method that decides which triangles intersect at one moment, or which swept vertices, edges and faces touch between two
-/// frames, selected by `--narrow` and the key `narrow`.
+/// What a narrow phase decides: which triangles intersect at one moment, which vertices, edges and faces touch between two frames, or which
+/// triangles are within a distance.
+enum class NarrowOf { moment, step, distance };
+
+/// A method that decides one of these, selected by `--narrow` and the key `narrow`.
 struct NarrowMethod {
     std::string_view name;
     std::string_view summary;   ///< one line, for listings
     bool is_exact;              ///< exact for the coordinates as stored; false: can be wrong
     unsigned rounded_test = 0;  ///< ROUNDED_TEST of rounded.clh; 0: exact method
-    unsigned real_bits = 0;     ///< REAL_BITS of rounded.clh
+    unsigned real_bits = 0;     ///< precision of what it computes
     /// Of a method for swept boxes: features that come nearer than this share of the scene's longest side may be taken to touch.
     float tolerance = 0;
 
-    bool is_swept() const { return tolerance > 0; }
+    unsigned within_test = 0;  ///< of a method for distances: WITHIN_ of within_words.h
+
+    NarrowOf of() const
+    {
+        return tolerance > 0      ? NarrowOf::step
+               : within_test != 0 ? NarrowOf::distance
+                                  : NarrowOf::moment;
+    }
+
+    bool misses_none() const;
 };
 
-/// All narrow phases, in the order of tables: those of one moment, then those between two frames.
+/// All narrow phases, in the order of tables: those of one moment, between two frames, and for distances.
 std::span<const NarrowMethod> narrow_methods();
-
-/// The two parts of narrow_methods().
-std::span<const NarrowMethod> moment_narrow_methods();
-std::span<const NarrowMethod> swept_narrow_methods();
+std::span<const NarrowMethod> narrow_methods(NarrowOf question);
 
 /// Returns the method of this name; "exact" selects the exact one. Throws BadUsage, with the known names, if there is none.
 const NarrowMethod& find_narrow_method(std::string_view name);
@@ -33,7 +42,7 @@ const NarrowMethod& find_narrow_method(std::string_view name);
 /// Throws BadUsage unless `name` is "none" or a method's; also if the method cannot keep pairs that share corners as asked.
 void check_narrow(std::string_view name, bool keep_adjacent);
 
-/// Throws BadUsage if the method `name`, which may be "none", is for one moment and boxes are swept, or the other way round.
-void check_narrow_of(std::string_view name, bool swept);
+/// Throws BadUsage if the method `name`, which may be "none", does not decide `question`. The exact one is for distances too.
+void check_narrow_of(std::string_view name, NarrowOf question);
 
 }  // namespace bvhbench

@@ -59,12 +59,8 @@ std::optional<Closest> in_doubles(const Corners& p, const Corners& q)
         best = way;
         return false;
     });
-    double size = 0;
-    for (const Vector corner : {a[1], a[2], b[0], b[1], b[2]})
-        size = std::max(size, largest(corner));
-    const auto shown = [&, spread_a = Spread{{a[0], a[1], a[2]}},
-                        spread_b = Spread{{b[0], b[1], b[2]}}](double factor) {
-        return shown_by(best, spread_a, spread_b, size, factor * best.square, factor * best.square);
+    const auto shown = [&, spread = spread_of(p, q)](double factor) {
+        return shown_by(best, spread, factor * best.square, factor * best.square);
     };
     if (shown(1 - 0x1p-33) != VERDICT_APART || shown(1 + 0x1p-33) != VERDICT_MEET)
         return std::nullopt;

@@ -13,17 +13,19 @@
 #include "collide/narrow/narrow.h"
 #include "collide/narrow/narrow_words.h"
 #include "collide/parameters.h"
+#include "collide/within/closest.h"
 #include "collide/within/distance_filter.h"
 #include "collide/within/exact_distance.h"
+#include "collide/within/within_words.h"
 #include "geometry/bits.h"
 #include "geometry/cores.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint within_group_size = 64;
-constexpr std::size_t items_a_unit = 4096;   ///< most work-items of a compute unit, on many cores
-constexpr uint run_of_chunk = 64;            ///< candidates that a work-item takes at once, on few
+constexpr uint within_group_size = 256;
+/// Most work-groups of a compute unit, on many cores; each pass has a quarter of the one before, which leaves few pairs over.
+constexpr std::size_t groups_a_unit = 16;
 constexpr std::size_t taken_at_once = 1024;  ///< the same of a thread of the host
 
 /// Returns a float that is at least half of the distance, and no denormal, which a device may take for 0.
@@ -35,6 +37,22 @@ float reach_of(double distance)
         return distance == 0 ? 0 : most;
     const auto near = static_cast<float>(half);
     return std::max(std::nextafter(near, most), std::numeric_limits<float>::min());
+}
+
+/// Returns the nearest float that is not above a positive double, or not below it, and no denormal, which a device may take for 0.
+float float_below(double value)
+{
+    const auto near =
+        static_cast<float>(std::min(value, double{std::numeric_limits<float>::max()}));
+    const float below = double{near} <= value ? near : std::nextafter(near, 0.0f);
+    return below < std::numeric_limits<float>::min() ? 0 : below;
+}
+
+float float_above(double value)
+{
+    const auto near = static_cast<float>(value);
+    const float above = double{near} >= value ? near : std::nextafter(near, INFINITY);
+    return value == 0 ? 0 : std::max(above, std::numeric_limits<float>::min());
 }
 
 /// Numbers around the square of the distance, which are equal unless that underflows: the filter's bounds cover its rounding.
@@ -55,24 +73,49 @@ bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair
         return options.keep_adjacent;
     const Corners at_a = corners_of(points, a), at_b = corners_of(points, b);
     const auto [low, high] = square_of(options.distance);
-    if (const uint likely = likely_within(at_a, at_b, low, high); likely != VERDICT_UNSURE)
+    if (const uint likely = likely_within(at_a, at_b, low, high, true); likely != VERDICT_UNSURE)
         return likely == VERDICT_MEET;
     return triangles_meet(points, faces, pair, false) ||
            parted_within(at_a, at_b, options.distance);
 }
 
 WithinPhase::WithinPhase(Programs& programs, const WithinOptions& options)
-    : programs_(programs)
-    , options_(options)
-    , form_(chosen_form(programs.device(), options.form))
-    , has_doubles_(has_doubles(programs.device()) && !options.without_doubles)
+    : programs_(programs), options_(options), form_(chosen_form(programs.device(), options.form))
 {
     set_distance(options.distance);
+    check_narrow_of(options.method, NarrowOf::distance);
     pad_ = programs.kernel("collide/within/pad.cl", "pad_points");
-    if (has_doubles_)
-        decide_ = programs.kernel("collide/within/within.cl", "decide_within",
-                                  {{"RUN", form_ == KernelForm::chunks ? run_of_chunk : 1},
-                                   {"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u}});
+    const bool can_double = has_doubles(programs.device()) && !options.without_doubles;
+    const NarrowMethod& method =
+        find_narrow_method(options.method == "none" ? "exact" : options.method);
+    is_exact_ = method.is_exact;
+    if (!is_exact_) {
+        if (!can_double)
+            throw Unavailable(std::string(method.name) +
+                              " needs doubles, which the device has not");
+        computes_distances_ = method.within_test == WITHIN_COMPUTED;
+        add_pass(method.within_test, method.real_bits, PAIRS_COUNT, NARROW_EXACT_COUNT);
+    } else if (can_double && form_ == KernelForm::groups) {
+        add_pass(WITHIN_CORNERS, 32, PAIRS_COUNT, NARROW_FLOAT_COUNT);
+        add_pass(WITHIN_WAYS, 32, NARROW_FLOAT_COUNT, NARROW_DOUBLE_COUNT);
+        add_pass(WITHIN_WAYS, 64, NARROW_DOUBLE_COUNT, NARROW_EXACT_COUNT);
+    } else if (can_double) {
+        add_pass(WITHIN_WAYS, 64, PAIRS_COUNT, NARROW_EXACT_COUNT);
+    }
+}
+
+void WithinPhase::add_pass(unsigned test, unsigned real_bits, uint from, uint left_at)
+{
+    passes_.push_back(
+        {.kernel = programs_.kernel("collide/within/within.cl", "decide_within",
+                                    {{"GROUP_SIZE", in_groups() ? within_group_size : 1},
+                                     {"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
+                                     {"TEST", test},
+                                     {"REAL_BITS", real_bits},
+                                     {"FROM", from},
+                                     {"LEFT", left_at}}),
+         .real_bits = real_bits,
+         .left_at = left_at});
 }
 
 void WithinPhase::set_distance(double distance)
@@ -92,7 +135,9 @@ void WithinPhase::reserve(const Input& input)
         counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch);
     });
     const std::size_t guess = std::max<std::size_t>(1024, input.triangle_count());
-    room_ = unsure_room_ = options_.capacity != 0 ? options_.capacity : guess;
+    room_ = options_.capacity != 0 ? options_.capacity : guess;
+    for (Pass& pass : passes_)
+        pass.room = is_exact_ ? room_ : 1;
     take_lists();
 }
 
@@ -100,7 +145,9 @@ void WithinPhase::take_lists()
 {
     take_memory(lists_, programs_.device(), [&](Arena& arena) {
         pairs_ = arena.take<Pair>(room_, Use::scratch);
-        unsure_ = arena.take<Pair>(has_doubles_ ? unsure_room_ : 1, Use::scratch);
+        distances_ = arena.take<double>(computes_distances_ ? room_ : 1, Use::scratch);
+        for (Pass& pass : passes_)
+            pass.left = arena.take<Pair>(pass.room, Use::scratch);
     });
 }
 
@@ -119,12 +166,11 @@ Input WithinPhase::padded(const Input& input, Queue& queue)
     queue.begin("pad");
     set_arguments(pad_, input.device_points, reach_, low_ends_, high_ends_,
                   static_cast<uint>(count));
-    const bool in_groups = form_ == KernelForm::groups;
     queue.launch(pad_,
-                 in_groups ? divided_up(static_cast<uint>(count), within_group_size) *
-                                 std::size_t{within_group_size}
-                           : chunk_count(programs_.device()),
-                 in_groups ? within_group_size : 1,
+                 in_groups() ? divided_up(static_cast<uint>(count), within_group_size) *
+                                   std::size_t{within_group_size}
+                             : chunk_count(programs_.device()),
+                 in_groups() ? within_group_size : 1,
                  static_cast<std::int64_t>(3 * low_ends_.bytes()));
     return input.between(low_ends_, high_ends_);
 }
@@ -134,18 +180,27 @@ void WithinPhase::query(const Input& input, const DevicePairs& candidates, Queue
     const Device& device = programs_.device();
     queue.begin("narrow");
     queue.clear(counters_.cl(), counters_.bytes());
-    if (has_doubles_) {
-        set_arguments(decide_, input.device_points, input.device_faces, candidates.pairs,
-                      candidates.counters, static_cast<uint>(candidates.pairs.size()), low_, high_,
-                      pairs_, static_cast<uint>(pairs_.size()), unsure_,
-                      static_cast<uint>(unsure_.size()), counters_);
-        const bool in_groups = form_ == KernelForm::groups;
-        queue.launch(decide_,
-                     in_groups ? items_a_unit * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()
-                               : chunk_count(device),
-                     in_groups ? within_group_size : 1, 0);
+    DevicePairs from = candidates;
+    std::size_t items =
+        groups_a_unit * within_group_size * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    for (Pass& pass : passes_) {
+        const auto begin = [&](auto low, auto high) {
+            set_arguments(pass.kernel, input.device_points, input.device_faces, from.pairs,
+                          from.counters, static_cast<uint>(from.pairs.size()), low, high, pairs_,
+                          static_cast<uint>(pairs_.size()), distances_, pass.left,
+                          static_cast<uint>(pass.left.size()), counters_);
+        };
+        if (pass.real_bits == 64)
+            begin(low_, high_);
+        else
+            begin(float_below(low_), float_above(high_));
+        queue.launch(pass.kernel, in_groups() ? items : chunk_count(device),
+                     in_groups() ? within_group_size : 1, 0);
+        items = std::max(items / 4, std::size_t{within_group_size});
+        from = {pass.left, counters_};
     }
-    queue.on_host("exact", [&] { decide_on_host(input, candidates, queue); });
+    if (is_exact_)
+        queue.on_host("exact", [&] { decide_on_host(input, candidates, queue); });
 }
 
 /// Appends what is within the distance of the unsure pairs; without doubles, of all candidates.
@@ -153,9 +208,10 @@ void WithinPhase::decide_on_host(const Input& input, const DevicePairs& candidat
                                  const Queue& queue)
 {
     const WithinCounts decided = counts(queue);
-    const DevicePairs from = has_doubles_ ? DevicePairs{unsure_, {}} : candidates;
+    const bool all_here = passes_.empty();
+    const DevicePairs from = all_here ? candidates : DevicePairs{passes_.back().left, {}};
     const std::uint64_t there =
-        has_doubles_ ? decided.exactly : wide_counts(candidates.counters, queue)[PAIRS_COUNT / 2];
+        all_here ? wide_counts(candidates.counters, queue)[PAIRS_COUNT / 2] : decided.exactly;
     if (there == 0 || there > from.pairs.size())  // a list that was too short comes again
         return;
     const std::vector<Pair> left =
@@ -189,15 +245,17 @@ void WithinPhase::decide_on_host(const Input& input, const DevicePairs& candidat
 
 bool WithinPhase::complete(const Queue& queue)
 {
-    const WithinCounts found = counts(queue);
-    const Device& device = programs_.device();
-    const bool pairs_fit = had_room(room_, found.within, found.within / 8, sizeof(Pair), device,
-                                    "pairs within the distance");
-    const bool unsure_fit = had_room(unsure_room_, found.exactly, found.exactly / 8, sizeof(Pair),
-                                     device, "unsure pairs");
-    if (!pairs_fit || !unsure_fit)
+    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    const auto fits = [&](std::size_t& room, uint at, const char* what) {
+        const std::uint64_t there = counts[at / 2];
+        return had_room(room, there, there / 8, sizeof(Pair), programs_.device(), what);
+    };
+    bool all_fit = fits(room_, CONTACTS_COUNT, "pairs within the distance");
+    for (Pass& pass : passes_)
+        all_fit = fits(pass.room, pass.left_at, "unsure pairs") && all_fit;
+    if (!all_fit)
         take_lists();
-    return pairs_fit && unsure_fit;
+    return all_fit;
 }
 
 WithinCounts WithinPhase::counts(const Queue& queue) const
@@ -209,6 +267,26 @@ WithinCounts WithinPhase::counts(const Queue& queue) const
 std::vector<Pair> WithinPhase::pairs(const Queue& queue) const
 {
     return first_entries(pairs_, counts(queue).within, queue, "the pairs within the distance");
+}
+
+std::vector<double> WithinPhase::distance_errors(const Input& input, const Queue& queue) const
+{
+    if (!computes_distances_)
+        return {};
+    const std::vector<Pair> found = pairs(queue);
+    const std::vector<double> computed = distances_.download(queue.cl());
+    std::vector<double> errors(found.size());
+    on_all_cores((found.size() + taken_at_once - 1) / taken_at_once, [&](std::size_t part) {
+        const std::size_t end = std::min(found.size(), (part + 1) * taken_at_once);
+        for (std::size_t k = part * taken_at_once; k < end; ++k) {
+            const Corners a = corners_of(input.points, input.faces[found[k].a]);
+            const Corners b = corners_of(input.points, input.faces[found[k].b]);
+            const double off = std::abs(computed[k] - closest_points(a, b).distance);
+            errors[k] = off / options_.distance;
+        }
+    });
+    std::ranges::sort(errors);
+    return errors;
 }
 
 }  // namespace bvhbench

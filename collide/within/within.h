@@ -3,11 +3,15 @@
 // Pairs of triangles within a distance of each other: boxes with half of it to each side, a collider's pairs of these, and a narrow phase.
 //
 //     pad       room around each vertex (pad.cl)     ->  any builder and collider, as over swept boxes
-//     narrow    pairs of these boxes, in doubles     ->  pairs within the distance, and unsure ones (within.cl, distance_filter.h)
+//     narrow    pairs of these boxes, in passes      ->  pairs within the distance, and unsure ones (within.cl, distance_filter.h)
 //     exact     unsure pairs, in integers, on host   ->  the others within the distance (exact_distance.h)
+//
+// On a GPU the passes are: floats and the ways between corners, which show most; floats and all ways; doubles. Each takes what the one before
+// left over, so that the lanes of a wave do the same. On a processor there is one, in doubles.
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "builders/input.h"
@@ -19,6 +23,8 @@ namespace bvhbench {
 struct WithinOptions {
     /// In the unit of the points. Not negative, and finite.
     double distance = 0;
+    /// "none", "exact" or a method for distances. Others than the exact one leave nothing over, and may be wrong.
+    std::string_view method = "exact";
     /// True to report pairs that share a vertex index, whose distance is 0; false to leave them out.
     bool keep_adjacent = false;
     KernelForm form = KernelForm::of_device;
@@ -39,7 +45,8 @@ struct WithinCounts {
 /// distance 0. No pair is dropped silently: a query is repeated until it is `complete`.
 class WithinPhase {
 public:
-    /// Throws BadUsage for a distance that is negative or not finite.
+    /// Throws BadUsage for a distance that is negative or not finite, and for a method that is not for distances; Unavailable for one that
+    /// needs doubles, on a device without.
     WithinPhase(Programs& programs, const WithinOptions& options);
 
     /// Changes the distance of the queries from here on. Throws BadUsage as the constructor.
@@ -66,24 +73,41 @@ public:
     WithinCounts counts(const Queue& queue) const;
     std::vector<Pair> pairs(const Queue& queue) const;
 
+    /// By how much the distances computed by a method in floats or doubles are off, as shares of the distance asked for, sorted. Empty for
+    /// other methods. Blocks.
+    std::vector<double> distance_errors(const Input& input, const Queue& queue) const;
+
     /// The same pairs in device memory; their number is at CONTACTS_COUNT of the counters.
     DevicePairs device_pairs() const { return {pairs_, counters_}; }
 
 private:
+    /// A launch over the pairs that the one before left over, the first over all candidates.
+    struct Pass {
+        cl::Kernel kernel;
+        unsigned real_bits;
+        uint left_at;  ///< the counter of pairs left over
+        std::size_t room = 0;
+        Buffer<Pair> left = {};
+    };
+
+    bool in_groups() const { return form_ == KernelForm::groups; }
+    void add_pass(unsigned test, unsigned real_bits, uint from, uint left_at);
     void take_lists();
     void decide_on_host(const Input& input, const DevicePairs& candidates, const Queue& queue);
 
     Programs& programs_;
     WithinOptions options_;
     KernelForm form_;
-    bool has_doubles_;
+    bool is_exact_ = true, computes_distances_ = false;
     float reach_ = 0;            ///< of padding, to each side
     double low_ = 0, high_ = 0;  ///< around the square of the distance
-    cl::Kernel pad_, decide_;
-    std::size_t room_ = 0, unsure_room_ = 0;
+    cl::Kernel pad_;
+    std::vector<Pass> passes_;
+    std::size_t room_ = 0;
     std::optional<Arena> arena_, lists_;
     Buffer<Point> low_ends_, high_ends_;
-    Buffer<Pair> pairs_, unsure_;
+    Buffer<Pair> pairs_;
+    Buffer<double> distances_;
     Buffer<uint> counters_;
 };
 

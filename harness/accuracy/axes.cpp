@@ -48,6 +48,11 @@ constexpr Axis catalog[] = {
      "which continuous collision detection misses which single queries, what it takes, and how far "
      "its times are before the right ones",
      measure_queries},
+    {"distance",
+     "which narrow phase finds which triangles within a distance, what it takes, and how far off "
+     "its "
+     "distances are",
+     measure_distance},
 };
 
 /// Returns up to `most` of the numbers below `count`, the first and the last among them.

@@ -168,6 +168,7 @@ std::shared_ptr<RoundedInput> upload_rounded(Session& session, std::vector<Point
 void measure_narrow(const AxisRun& run);
 void measure_swept(const AxisRun& run);
 void measure_impacts(const AxisRun& run);
+void measure_distance(const AxisRun& run);
 void measure_queries(const AxisRun& run);
 void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& input);

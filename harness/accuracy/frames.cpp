@@ -31,7 +31,7 @@ std::vector<FrameSetting> frame_settings()
     const auto add_narrow = [&](const std::string& name) {
         settings.push_back({.method = "narrow " + name, .narrow = name});
     };
-    for (const NarrowMethod& method : moment_narrow_methods())
+    for (const NarrowMethod& method : narrow_methods(NarrowOf::moment))
         if (!method.is_exact)
             add_narrow(std::string(method.name));
     add_narrow("none");

@@ -98,7 +98,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
 {
     Session& session = run.session;
     std::vector<AxisMethod> methods;
-    for (const NarrowMethod& method : moment_narrow_methods()) {
+    for (const NarrowMethod& method : narrow_methods(NarrowOf::moment)) {
         const auto prepare = [&](Measurement& one) {
             const std::shared_ptr<NarrowPhase> narrow = compiled(session, method);
             narrow->reserve(piece.mesh.faces.size());
@@ -150,7 +150,7 @@ void add_piece(Cell& all, Cell&& piece)
 void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 {
     std::vector<Cell> cells;  // each the sum over the pieces
-    for (const NarrowMethod& method : moment_narrow_methods())
+    for (const NarrowMethod& method : narrow_methods(NarrowOf::moment))
         if (run.task.wants(of.name, method.name))
             cells.push_back(accuracy_cell("narrow", method.name, {}));
     std::size_t next = 0;
@@ -198,7 +198,7 @@ void measure_narrow(const AxisRun& run)
 {
     std::vector<const PairClass*> wanted;
     for (const PairClass& of : pair_classes())
-        if (std::ranges::any_of(moment_narrow_methods(), [&](const NarrowMethod& method) {
+        if (std::ranges::any_of(narrow_methods(NarrowOf::moment), [&](const NarrowMethod& method) {
                 return run.task.wants(of.name, method.name);
             }))
             wanted.push_back(&of);

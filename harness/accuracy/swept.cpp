@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The axes of steps between two frames. swept: pairs of swept boxes, by several pipelines, against the sweep, pairs known to
-// collide during the step, and counts published with the data. impacts: what touches, by each narrow phase, against CGAL too.
+// The axes about whole pipelines. swept: pairs of boxes swept between two frames, by several pipelines, against the sweep, pairs known to
+// collide during the step, and counts published with the data. impacts: what touches on the way, by each narrow phase, against CGAL too.
+// distance: triangles within a distance, by each narrow phase, against CGAL.
 #include "collide/narrow/narrow_methods.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
@@ -12,29 +13,40 @@
 namespace bvhbench {
 namespace {
 
-/// Sequences with a ground truth, and the generated scene used if a sequence is missing.
-constexpr std::pair<const char*, const char*> own_scenes[] = {
-    {"unc_cloth_ball", "cloth-ball:20000:20"},
-    {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
-    {"unc_nbody", "n-body:20000:20"},
-    {"unc_cloth_funnel", "cloth-funnel:18000:20"}};
+/// A scene, and the generated one that is used if it is missing.
+using StandIn = std::pair<const char*, const char*>;
+
+constexpr StandIn own_scenes[] = {
+    {"unc_cloth_ball", "cloth-ball:20000:20"}, {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
+    {"unc_nbody", "n-body:20000:20"},          {"unc_cloth_funnel", "cloth-funnel:18000:20"},
+    {"ipc_rod_twist", "bend:torus:20000"},     {"ipc_thick_cloth", "cloth-layers:400:20"}};
+
+constexpr StandIn distance_scenes[] = {{"unc_cloth_ball", "cloth-ball:20000:20"},
+                                       {"unc_nbody", "n-body:20000:20"},
+                                       {"armadillo_86482", "torus:20000"},
+                                       {"bunny", "sphere:20000"},
+                                       {"ipc_armadillo_rollers", "cloth-funnel:10000:20"}};
+
+/// Of the diagonal: what contacts of cloth are kept apart by, and what a planner of paths asks for.
+constexpr const char* distances[] = {"0.1%", "1%"};
 
 /// A scene's name, and the name of the scene it replaces; empty if none.
 using NamedScene = std::pair<std::string, std::string>;
 
-/// Returns the scenes asked for, with a bent second frame if they have one frame, or the axis's own.
-std::vector<NamedScene> scenes_of(const AxisRun& run)
+/// Returns the scenes asked for, `swept` with a bent second frame if they have one frame, or the axis's own.
+std::vector<NamedScene> scenes_of(const AxisRun& run, bool swept)
 {
     std::vector<NamedScene> scenes;
     for (const std::string& scene : run.task.scenes) {
         bool stands = false;  // a missing scene is reported by collide_frames
         reason_of_failure(
-            [&] { stands = load_scene(scene, run.session.scenes()).frames.size() < 2; });
+            [&] { stands = swept && load_scene(scene, run.session.scenes()).frames.size() < 2; });
         scenes.emplace_back(stands ? "bend:" + scene : scene, "");
     }
     if (!scenes.empty())
         return scenes;
-    for (const auto& [name, generated] : own_scenes)
+    for (const auto& [name, generated] :
+         swept ? std::span<const StandIn>(own_scenes) : distance_scenes)
         if (located(*manifest_entry(name), run.session.scenes().data).empty()) {
             run.progress.note("accuracy: " + std::string(name) + " is not there, " + generated +
                               " in its place");
@@ -70,17 +82,19 @@ std::string method_of(const BuilderChoice& builder, const ColliderChoice& collid
     return text + (builder.sorted_leaves ? ", sorted leaves" : "");
 }
 
-/// Measures pipelines over the steps of an axis's scenes. `method` returns what the axis calls a pipeline.
-void measure_steps(
-    const AxisRun& run, const std::string& axis, const std::vector<PipelineChoice>& pipelines,
-    const std::function<std::string(const BuilderChoice&, const ColliderChoice&)>& method)
+/// Returns what an axis calls a pipeline.
+using MethodName = std::function<std::string(const BuilderChoice&, const ColliderChoice&)>;
+
+/// Measures pipelines over an axis's scenes: over the steps between frames if `swept`, else in the first frame.
+void measure_pipelines(const AxisRun& run, const std::string& axis, bool swept,
+                       const std::vector<PipelineChoice>& pipelines, const MethodName& method)
 {
-    for (const auto& [scene, missing_scene] : scenes_of(run)) {
+    for (const auto& [scene, missing_scene] : scenes_of(run, swept)) {
         CollideTask task;
         task.experiment = "accuracy";
         task.scene = scene;
         task.may_stand_in = true;
-        task.swept = true;
+        task.swept = swept;
         task.pipelines = pipelines;
         task.samples = run.task.samples;
         task.warm_up = 1;
@@ -103,20 +117,45 @@ void measure_steps(
     }
 }
 
+/// Measures each narrow phase that decides `question`, and the exact one, behind the fastest pipeline. `within` are distances, or "none".
+void measure_narrow_phases(const AxisRun& run, const std::string& axis, NarrowOf question,
+                           std::span<const char* const> within)
+{
+    std::vector<std::string> names;
+    if (question == NarrowOf::distance)
+        names.emplace_back("exact");
+    for (const NarrowMethod& method : narrow_methods(question))
+        names.emplace_back(method.name);
+    std::vector<PipelineChoice> all;
+    for (const char* distance : within)
+        for (const std::string& narrow : names) {
+            const AxisMethod fastest = fastest_method(run.session, "", "f32", narrow);
+            PipelineChoice& one =
+                all.emplace_back(PipelineChoice{fastest.builder, fastest.collider});
+            one.collider.within = distance;
+            one.collider.trees = TreeOver::automatic;
+        }
+    measure_pipelines(
+        run, axis, question == NarrowOf::step, all,
+        [](const BuilderChoice&, const ColliderChoice& collider) { return collider.narrow; });
+}
+
 }  // namespace
 
-void measure_swept(const AxisRun& run) { measure_steps(run, "swept", pipelines(), method_of); }
+void measure_swept(const AxisRun& run)
+{
+    measure_pipelines(run, "swept", true, pipelines(), method_of);
+}
 
 void measure_impacts(const AxisRun& run)
 {
-    std::vector<PipelineChoice> all;
-    for (const NarrowMethod& method : swept_narrow_methods())
-        all.push_back({{{.order = "hilbert30", .sorted_leaves = true}, "oibvh-single"},
-                       {.name = run.session.device().is_cpu() ? "group" : "block",
-                        .narrow = std::string(method.name)}});
-    measure_steps(run, "impacts", all, [](const BuilderChoice&, const ColliderChoice& collider) {
-        return collider.narrow;
-    });
+    constexpr const char* none[] = {"none"};
+    measure_narrow_phases(run, "impacts", NarrowOf::step, none);
+}
+
+void measure_distance(const AxisRun& run)
+{
+    measure_narrow_phases(run, "distance", NarrowOf::distance, distances);
 }
 
 }  // namespace bvhbench

@@ -9,6 +9,7 @@
 
 #include "builders/builder.h"
 #include "collide/collider.h"
+#include "collide/narrow/narrow_methods.h"
 #include "collide/skips.h"
 #include "plugins/methods.h"
 
@@ -117,6 +118,12 @@ struct ColliderChoice : ColliderOptions {
     std::optional<double> distance = std::nullopt;
 
     bool operator==(const ColliderChoice&) const = default;
+
+    /// What the narrow phase decides, of swept boxes or others.
+    NarrowOf question(bool swept) const
+    {
+        return swept ? NarrowOf::step : within == "none" ? NarrowOf::moment : NarrowOf::distance;
+    }
 };
 
 /// Makes the chosen collider. Throws BadUsage if there is none, it does not support the options or the narrow phase is

@@ -292,14 +292,12 @@ void check_choice(const CellChoice& choice)
         return;
     find_collider(choice.collider.name);
     check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
-    const bool is_within = choice.collider.within != "none";
-    if (const std::string& narrow = choice.collider.narrow; (choice.collider.first || is_within) &&
-                                                            narrow != "none" &&
-                                                            !find_narrow_method(narrow).is_exact)
-        throw BadUsage((is_within ? "what is within a distance is exact: beside 'within'"
-                                  : "the first contact is exact: beside 'first'") +
-                       (" 'narrow' is none or exact, not '" + narrow + "'"));
-    if (is_within && choice.collider.first)
+    if (const std::string& narrow = choice.collider.narrow;
+        choice.collider.first && narrow != "none" && !find_narrow_method(narrow).is_exact)
+        throw BadUsage(
+            "the first contact is exact: beside 'first' 'narrow' is none or exact, not '" + narrow +
+            "'");
+    if (choice.collider.within != "none" && choice.collider.first)
         throw BadUsage("'first' ends at a contact, and 'within' is about all pairs: choose one");
     if (const unsigned both = choice.collider.rules_off & choice.collider.rules_forced; both != 0)
         throw BadUsage("a rule is switched off by 'no_skip' or forced by 'force_skip', not both: " +

@@ -56,7 +56,7 @@ ClusterCheck cluster_check_called(const std::string& name)
 void check_task(const ClusterTask& task)
 {
     check_choice({task.pipeline.builder, task.pipeline.collider});
-    check_narrow_of(task.pipeline.collider.narrow, false);
+    check_narrow_of(task.pipeline.collider.narrow, NarrowOf::moment);
     find_order(task.pipeline.builder.order);
     triangles_in_name(task.scene);  // throws for a name that no scene can have
     if (!std::has_single_bit(task.boxes))

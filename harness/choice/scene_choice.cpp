@@ -63,7 +63,7 @@ std::string frame_range_text(const FrameRange& range)
 void check_swept(const CollideTask& task)
 {
     for (const PipelineChoice& pipeline : task.pipelines)
-        check_narrow_of(pipeline.collider.narrow, task.swept);
+        check_narrow_of(pipeline.collider.narrow, pipeline.collider.question(task.swept));
     if (!task.swept)
         return;
     if (task.objects != ObjectsBy::automatic)

@@ -160,7 +160,7 @@ private:
 
     CollideTask task() const
     {
-        check_narrow_of(choice_.collider.narrow, choice_.scene.swept);
+        check_narrow_of(choice_.collider.narrow, choice_.collider.question(choice_.scene.swept));
         const std::vector<CellChoice> choices = names_.combined_with(choice_);
         CollideTask task;
         static_cast<SceneChoice&>(task) = choice_.scene;

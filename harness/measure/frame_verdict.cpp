@@ -76,7 +76,7 @@ Differences count_errors(const PairList& found, const PairList& expected, const 
     return wrong;
 }
 
-/// Counts the errors of a narrow phase that is not exact. One for swept boxes may find what does not touch, and misses nothing.
+/// Counts the errors of a narrow phase that is not exact. One that misses nothing may find what is none.
 void check_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
 {
     const Differences wrong = count_errors(found, expected, "", cell);
@@ -213,12 +213,17 @@ void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& f
     const FoundList contacts(pipeline.contacts(), expected, frame_);
     const bool is_swept = frame_.input.is_swept();
     const bool is_within = cell.collider.distance.has_value();
-    if (is_within || pipeline.collider().finds_contacts() ||
-        find_narrow_method(cell.collider.narrow).is_exact)
+    const std::string& narrow = cell.collider.narrow;  // "none": of --within, or the collider's own
+    if (narrow == "none" || find_narrow_method(narrow).is_exact)
         contacts.add_differences("contacts", check);
     else
-        check_inexact(contacts.list(), expected.list().list, !is_swept, cell);
+        check_inexact(contacts.list(), expected.list().list,
+                      !find_narrow_method(narrow).misses_none(), cell);
     found.contacts = contacts.in_file(check.contacts_hash);
+    if (const std::vector<double> off = pipeline.distance_errors(frame_.input); !off.empty()) {
+        cell.counters["distance_error_median"] = off[off.size() / 2];
+        cell.counters["distance_error_most"] = off.back();
+    }
     if (!is_swept && !is_within && contacts.is_right())
         cell.counters["touching_count"] = static_cast<double>(expected.facts().touching);
 }

@@ -81,6 +81,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     reserve_for(input);
     if (collider.distance) {
         within_.emplace(session.programs(), WithinOptions{.distance = *collider.distance,
+                                                          .method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,
                                                           .form = collider.form});
         within_->reserve(input);

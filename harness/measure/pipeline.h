@@ -45,6 +45,11 @@ public:
 
     /// Results of the last frame. All of these functions block until it is done.
     bool has_pairs() const { return !collider_->finds_contacts(); }
+    /// As WithinPhase::distance_errors; empty if no distance is asked for.
+    std::vector<double> distance_errors(const Input& input) const
+    {
+        return within_ ? within_->distance_errors(input, session_.queue()) : std::vector<double>();
+    }
     bool has_contacts() const { return collider_->finds_contacts() || narrow_ || within_; }
     std::vector<Pair> pairs() const;     ///< in any order; requires has_pairs()
     std::vector<Pair> contacts() const;  ///< in any order; requires has_contacts()

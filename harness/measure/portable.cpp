@@ -24,7 +24,7 @@ Experiment portable_experiment()
         task.samples = 1;
         task.warm_up = 0;
         PipelineChoice pipeline = task.pipelines.front();
-        for (const NarrowMethod& method : moment_narrow_methods()) {
+        for (const NarrowMethod& method : narrow_methods(NarrowOf::moment)) {
             pipeline.collider.narrow = method.name;
             if (pipeline != task.pipelines.front())
                 task.pipelines.push_back(pipeline);

@@ -153,7 +153,7 @@ TEST_P(Impacts, ByHandAreFoundWhereverTheyAreAndBeforeTheyHappen)
 {
     for (const auto& [scale, by] : {std::pair(1.0f, 0.0f), std::pair(1.0f, 1024.0f),
                                     std::pair(0x1p-90f, -512.0f), std::pair(0x1p60f, 3.0f)})
-        for (const NarrowMethod& method : swept_narrow_methods()) {
+        for (const NarrowMethod& method : narrow_methods(NarrowOf::step)) {
             const Motions all = cases(scale, by);
             const auto found = found_by(method.name, GetParam(), all, 2 * scale);
             for (std::size_t k = 0; k < std::size(by_hand); ++k) {
@@ -302,7 +302,7 @@ TEST_P(Impacts, AtRandomAreNeverMissedAndFalseOnesComeNear)
         EXPECT_GT(touching.size(), 20u) << of.name;
         EXPECT_EQ(touching.size() == of.count, of.ends_in_touch) << of.name;
         std::size_t found_before = of.count;
-        for (const NarrowMethod& method : swept_narrow_methods()) {
+        for (const NarrowMethod& method : narrow_methods(NarrowOf::step)) {
             SCOPED_TRACE(std::string(of.name) + ' ' + std::string(method.name));
             auto found = found_by(method.name, GetParam(), all, of.size);
             EXPECT_LE(found.size(), found_before);  // tolerances decrease
@@ -337,11 +337,11 @@ TEST(ImpactPhase, IsForSweptBoxesAndOthersAreNot)
 {
     EXPECT_THROW(NarrowPhase(bench().programs, {.method = "ccd-1e-4"}), BadUsage);
     EXPECT_THROW(NarrowPhase(bench().programs, {.method = "exact", .swept_size = 1.0f}), BadUsage);
-    EXPECT_EQ(moment_narrow_methods().size() + swept_narrow_methods().size(),
-              narrow_methods().size());
-    EXPECT_FALSE(swept_narrow_methods().empty());
-    for (const NarrowMethod& method : moment_narrow_methods())
-        EXPECT_FALSE(method.is_swept()) << method.name;
+    std::size_t all = 0;
+    for (const NarrowOf question : {NarrowOf::moment, NarrowOf::step, NarrowOf::distance})
+        all += narrow_methods(question).size();
+    EXPECT_EQ(all, narrow_methods().size());
+    EXPECT_FALSE(narrow_methods(NarrowOf::step).empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, Impacts, testing::ValuesIn(both_forms), form_test_name);

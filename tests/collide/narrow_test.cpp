@@ -130,7 +130,7 @@ TEST(RoundedNarrow, IsRightWhereNothingIsClose)
         GTEST_SKIP() << "built without CGAL: nothing is compared";
     constexpr std::array<std::size_t, 2> none = {0, 0};
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const NarrowMethod& method : moment_narrow_methods()) {
+        for (const NarrowMethod& method : narrow_methods(NarrowOf::moment)) {
             SCOPED_TRACE(std::string(method.name) + ", " + form_name(form));
             EXPECT_EQ(errors_of(method.name, form, "generic"), none);
             if (method.name != "sat-f32") {  // no axis between a segment and others in its plane
@@ -161,7 +161,7 @@ TEST(RoundedNarrow, LooksAtEachOfFewPairs)
     const Mesh mesh = apart_pairs(find_pair_class("lattice_3"), 130, 1);
     const Candidates candidates(mesh, neighbours(mesh));
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const NarrowMethod& method : moment_narrow_methods()) {
+        for (const NarrowMethod& method : narrow_methods(NarrowOf::moment)) {
             NarrowPhase narrow(bench().programs,
                                {.method = method.name, .form = form, .capacity = 1});
             narrow.reserve(mesh.faces.size());

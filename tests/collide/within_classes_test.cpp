@@ -36,7 +36,18 @@ double least_distance(const Mesh& mesh, Pair pair)
     return std::bit_cast<double>(low);
 }
 
-/// Expects the oracle's pairs of the kernel in both forms and of the host alone.
+PairList found(const Candidates& candidates, const WithinOptions& options)
+{
+    WithinPhase phase(bench().programs, options);
+    phase.reserve(candidates.input);
+    do
+        phase.query(candidates.input, {candidates.on_device, candidates.counters}, bench().queue);
+    while (!phase.complete(bench().queue));
+    bench().queue.finish();
+    return PairList(phase.pairs(bench().queue));
+}
+
+/// Expects the oracle's pairs of the kernel in both forms and of the host alone, and them among those of shapes around triangles.
 void expect_right(const Candidates& candidates, double distance)
 {
     const Mesh& mesh = candidates.mesh;
@@ -46,17 +57,16 @@ void expect_right(const Candidates& candidates, double distance)
          {WithinOptions{.distance = distance, .form = KernelForm::groups},
           WithinOptions{.distance = distance, .form = KernelForm::chunks},
           WithinOptions{.distance = distance, .without_doubles = true}}) {
-        WithinPhase phase(bench().programs, options);
-        phase.reserve(candidates.input);
-        do
-            phase.query(candidates.input, {candidates.on_device, candidates.counters},
-                        bench().queue);
-        while (!phase.complete(bench().queue));
-        bench().queue.finish();
         SCOPED_TRACE(testing::Message()
                      << distance << (options.without_doubles ? " on the host" : ""));
-        expect_equal(mesh, PairList(phase.pairs(bench().queue)), wanted);
+        expect_equal(mesh, found(candidates, options), wanted);
     }
+    for (const NarrowMethod& method : narrow_methods(NarrowOf::distance))
+        if (method.misses_none()) {
+            const PairList near = found(candidates, {.distance = distance, .method = method.name});
+            EXPECT_TRUE(std::ranges::includes(near.pairs(), wanted.pairs()))
+                << method.name << " at " << distance;
+        }
 }
 
 class WithinClasses : public OfAClass {};

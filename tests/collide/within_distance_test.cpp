@@ -24,6 +24,7 @@ struct Answer {
     PairList pairs;
     int queries = 0;
     std::uint64_t exactly = 0;
+    double error = 0;  ///< the largest of a distance that was computed
 };
 
 /// Asks a collider over the builder of `standing`, or over none, with padded boxes.
@@ -50,6 +51,8 @@ Answer asked(const Standing& standing, std::string_view name, const WithinOption
     } while (!collider->complete(queue) || !phase.complete(queue));
     answer.pairs = PairList(phase.pairs(queue));
     answer.exactly = phase.counts(queue).exactly;
+    for (const double error : phase.distance_errors(standing.input, queue))
+        answer.error = error;  // they are sorted
     EXPECT_EQ(answer.pairs.surplus(), 0u);
     EXPECT_EQ(answer.pairs.size(), phase.counts(queue).within);
     return answer;
@@ -211,6 +214,29 @@ TEST_F(WithinDistance, IsSeldomLeftToExactArithmetic)
         EXPECT_EQ(answer.pairs, oracle(standing.input, distance, false));
         EXPECT_EQ(answer.exactly, 0u) << "of " << answer.pairs.size();
     }
+}
+
+/// Methods have fewer false pairs the tighter their shapes are, and those as computed have none here, nor distances that are far off.
+TEST_F(WithinDistance, IsFoundByOtherMethods)
+{
+    const Mesh mesh = scene_mesh("torus:3000");
+    const Standing standing(mesh, "oibvh-multi");
+    const WithinOptions exact = {.distance = 0.02, .keep_adjacent = true};
+    const PairList right = asked(standing, "leaf", exact).pairs;
+    std::map<std::string_view, std::size_t> false_ones;
+    for (const NarrowMethod& method : narrow_methods(NarrowOf::distance)) {
+        WithinOptions options = exact;
+        options.method = method.name;
+        const Answer answer = asked(standing, "leaf", options);
+        EXPECT_TRUE(std::ranges::includes(answer.pairs.pairs(), right.pairs())) << method.name;
+        EXPECT_LT(answer.error, method.real_bits == 64 ? 1e-13 : 1e-4) << method.name;
+        EXPECT_EQ(answer.error > 0, !method.misses_none()) << method.name;
+        false_ones[method.name] = answer.pairs.size() - right.size();
+    }
+    EXPECT_EQ(false_ones["within-f64"] + false_ones["within-f32"], 0u);
+    for (const char* shape : {"within-capsules", "within-spheres", "within-rounded-boxes"})
+        EXPECT_TRUE(0 < false_ones[shape] && false_ones[shape] < false_ones["within-boxes"])
+            << shape;
 }
 
 TEST_F(WithinDistance, IsPaddedOutward)

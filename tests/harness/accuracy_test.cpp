@@ -163,7 +163,7 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
     const AxisTask task{
         .scenes = {}, .pairs = 46'000, .pairs_at_once = 700, .samples = 2, .filter = {}};
     const auto cells = measured("narrow", task);
-    EXPECT_EQ(cells.size(), pair_classes().size() * moment_narrow_methods().size());
+    EXPECT_EQ(cells.size(), pair_classes().size() * narrow_methods(NarrowOf::moment).size());
     double total = 0;
     for (const auto& [name, cell] : cells) {
         SCOPED_TRACE(name);
