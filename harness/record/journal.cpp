@@ -6,11 +6,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
+#include "process/worker.h"
 
 namespace bvhbench {
 namespace {
@@ -40,15 +40,8 @@ void Journal::open(std::filesystem::path path)
 
 void Journal::append(const std::string& line)
 {
-    if (file_ < 0)
-        return;
-    const std::string text = line + '\n';
-    for (std::string_view rest = text; !rest.empty();) {
-        const ssize_t count = write(file_, rest.data(), rest.size());
-        if (count < 0 && errno != EINTR)
-            cannot_write(path_);
-        rest.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
-    }
+    if (file_ >= 0 && !write_all(file_, line + '\n'))
+        cannot_write(path_);
 }
 
 void Journal::append(const std::string& part, const char* kind, const std::string& value)

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cstring>
 #include <iostream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -20,6 +19,7 @@
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "harness/base/json_keys.h"
+#include "process/worker.h"
 
 namespace bvhbench {
 namespace {
@@ -220,12 +220,8 @@ Output::Writer::~Writer()
 
 void Output::Writer::append(std::string_view text)
 {
-    while (!text.empty()) {
-        const ssize_t count = write(file_, text.data(), text.size());
-        if (count < 0 && errno != EINTR)
-            fail(output_.path_);
-        text.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
-    }
+    if (!write_all(file_, text))
+        fail(output_.path_);
 }
 
 void Output::Writer::finish()
