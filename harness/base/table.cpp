@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -11,19 +10,6 @@
 
 namespace bvhbench {
 namespace {
-
-/// Returns the words of `text` in lines of at most `width` characters, if the words are no longer.
-std::vector<std::string> wrapped(const std::string& text, std::size_t width)
-{
-    std::istringstream words(text);
-    std::vector<std::string> lines;
-    for (std::string word; words >> word;)
-        if (lines.empty() || character_count(lines.back() + word) >= width)
-            lines.push_back(word);
-        else
-            lines.back() += ' ' + word;
-    return lines;
-}
 
 /// Formats three significant digits in the largest unit that gives at least 1.
 std::string with_unit(double value, const std::vector<const char*>& units)
@@ -36,6 +22,18 @@ std::string with_unit(double value, const std::vector<const char*>& units)
 }
 
 }  // namespace
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width)
+{
+    std::istringstream words(text);
+    std::vector<std::string> lines;
+    for (std::string word; words >> word;)
+        if (lines.empty() || character_count(lines.back() + word) >= width)
+            lines.push_back(word);
+        else
+            lines.back() += ' ' + word;
+    return lines;
+}
 
 std::string Table::text(std::size_t width) const
 {

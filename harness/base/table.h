@@ -29,6 +29,9 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+/// Returns the words of `text` in lines of at most `width` characters, if the words are no longer.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width);
+
 /// Returns `value` with `digits` digits after the point.
 std::string fixed(double value, int digits);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
-#include <sstream>
 #include <string>
 
+#include "harness/base/table.h"
 #include "harness/commands/command.h"
 
 namespace bvhbench {
@@ -40,22 +40,12 @@ constexpr HelpLine files[] = {
     {"results/tuning/", "tuned values of known devices, also in the program"},
 };
 
-/// Wraps `text` at page_width. The first line begins at column `used`; the others are indented by `margin` blanks.
-std::string wrapped(std::string_view text, std::size_t margin, std::size_t used)
+/// Wraps `text`, which begins at column `margin`, at page_width. Lines after the first are indented by `margin` blanks.
+std::string on_page(std::string_view text, std::size_t margin)
 {
-    std::istringstream words{std::string(text)};
     std::string out;
-    for (std::string word; words >> word; used += word.size()) {
-        const bool is_first = out.empty();
-        if (!is_first && used + 1 + word.size() > page_width) {
-            out += '\n' + std::string(margin, ' ');
-            used = margin;
-        } else if (!is_first) {
-            out += ' ';
-            ++used;
-        }
-        out += word;
-    }
+    for (const std::string& line : wrapped(std::string(text), page_width - margin))
+        out += (out.empty() ? "" : '\n' + std::string(margin, ' ')) + line;
     return out;
 }
 
@@ -69,7 +59,7 @@ std::string entry(const std::string& name, std::string_view what)
         out += '\n' + std::string(column, ' ');
     else
         out.resize(column, ' ');
-    return out + wrapped(what, column, column) + '\n';
+    return out + on_page(what, column) + '\n';
 }
 
 std::string section(std::string_view title, std::span<const HelpLine> list)
@@ -114,7 +104,7 @@ public:
 
     std::string make_description(const CLI::App* app) const override
     {
-        return wrapped(app->get_description(), 0, 0) + "\n\n";
+        return on_page(app->get_description(), 0) + "\n\n";
     }
 };
 
@@ -123,7 +113,7 @@ std::string examples_text(std::span<const HelpLine> examples)
     std::string out = "Examples:\n";
     for (const HelpLine& example : examples)
         out += std::string(indent, ' ') + std::string(example.name) + '\n' +
-               std::string(3 * indent, ' ') + wrapped(example.what, 3 * indent, 3 * indent) + '\n';
+               std::string(3 * indent, ' ') + on_page(example.what, 3 * indent) + '\n';
     return out;
 }
 
@@ -151,7 +141,7 @@ void add_help(CLI::App& app)
         CLI::App* command = app.get_subcommand(std::string(entry.name));
         command->formatter(app.get_formatter());
         command->group(std::string(entry.group));
-        command->footer(wrapped(entry.more, 0, 0) + "\n\n" + examples_text(entry.examples) +
+        command->footer(on_page(entry.more, 0) + "\n\n" + examples_text(entry.examples) +
                         "\nOptions that all commands have, exit codes and environment: bvhbench "
                         "--help\nMore: " +
                         std::string(entry.see));
