@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "geometry/hash.h"
+
 namespace bvhbench {
 namespace {
 
@@ -15,12 +17,9 @@ constexpr std::size_t most_shown = 3;
 std::vector<Pair> first_only_in(const PairList& one, const PairList& other)
 {
     std::vector<Pair> found;
-    for (const Pair pair : one.pairs())
-        if (!std::ranges::binary_search(other.pairs(), pair)) {
-            found.push_back(pair);
-            if (found.size() == most_shown)
-                break;
-        }
+    std::ranges::copy_if(one.pairs(), std::back_inserter(found), [&](Pair pair) {
+        return found.size() < most_shown && !std::ranges::binary_search(other.pairs(), pair);
+    });
     return found;
 }
 
@@ -35,6 +34,11 @@ void put_triangle(std::ostream& text, uint face, const Input& input,
 }
 
 }  // namespace
+
+std::string facts_text(const PairFacts& facts)
+{
+    return std::to_string(facts.count) + " pairs of the hash " + hex(facts.high) + hex(facts.low);
+}
 
 std::vector<Pair> doubled_pairs(std::vector<Pair>& found)
 {
@@ -78,19 +82,13 @@ std::string examples(const PairList& found, const PairList& right, std::span<con
 
 Differences differences(const PairList& found, const PairList& right)
 {
-    Differences counts{0, found.surplus()};
-    auto one = found.pairs().begin();
+    std::uint64_t both = 0;
     auto other = right.pairs().begin();
-    while (one != found.pairs().end() && other != right.pairs().end()) {
-        counts.false_ones += *one < *other ? 1 : 0;
-        counts.missed += *other < *one ? 1 : 0;
-        const bool step = *one <= *other, step_other = *other <= *one;
-        one += step ? 1 : 0;
-        other += step_other ? 1 : 0;
+    for (const Pair pair : found.pairs()) {
+        other = std::find_if(other, right.pairs().end(), [&](Pair one) { return one >= pair; });
+        both += other != right.pairs().end() && *other == pair ? 1 : 0;
     }
-    counts.false_ones += static_cast<std::uint64_t>(found.pairs().end() - one);
-    counts.missed += static_cast<std::uint64_t>(right.pairs().end() - other);
-    return counts;
+    return {right.size() - both, found.size() - both + found.surplus()};
 }
 
 std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input)

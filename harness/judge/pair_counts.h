@@ -34,6 +34,9 @@ struct Differences {
 
 Differences differences(const PairList& found, const PairList& right);
 
+/// Returns "12 pairs of the hash 0123...", with the hash as result files have it.
+std::string facts_text(const PairFacts& facts);
+
 /// Sorts the pairs, each with its smaller id first, and returns up to three that are there more than once.
 std::vector<Pair> doubled_pairs(std::vector<Pair>& found);
 

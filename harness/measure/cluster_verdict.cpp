@@ -4,16 +4,10 @@
 #include "collide/narrow/narrow.h"
 #include "collide/oracles/pair_sets.h"
 #include "geometry/error.h"
-#include "geometry/hash.h"
-#include "harness/choice/catalog.h"
+#include "harness/judge/pair_counts.h"
 
 namespace bvhbench {
 namespace {
-
-std::string text_of(const PairFacts& facts)
-{
-    return std::to_string(facts.count) + " pairs of the hash " + hex(facts.high) + hex(facts.low);
-}
 
 /// Returns a verdict that agrees, unless a pair is found twice.
 Check begun(const ClusterEvidence& evidence, const std::string& against)
@@ -51,7 +45,8 @@ Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Poi
                                                 collider->counts(queue).pairs, queue);
         if (evidence.facts != right ||
             (evidence.list && *evidence.list != PairList(collider->pairs(queue))))
-            check.find_wrong("it finds " + text_of(right) + ", not " + text_of(evidence.facts));
+            check.find_wrong("it finds " + facts_text(right) + ", not " +
+                             facts_text(evidence.facts));
         if (!evidence.contacts)
             return check;
         NarrowPhase narrow(session.programs(), {.method = pipeline.collider.narrow,
@@ -63,8 +58,8 @@ Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Poi
         const PairFacts facts = facts_of(contacts);
         if (*evidence.contacts != facts ||
             (evidence.contact_list && *evidence.contact_list != PairList(std::move(contacts))))
-            check.find_wrong("of contacts, it finds " + text_of(facts) + ", not " +
-                             text_of(*evidence.contacts));
+            check.find_wrong("of contacts, it finds " + facts_text(facts) + ", not " +
+                             facts_text(*evidence.contacts));
     } catch (const Unavailable& error) {  // the scene may be too large for one device
         session.renew_queue();
         if (check.verdict == Check::Verdict::agrees)
@@ -79,12 +74,12 @@ Check verdict_of_partitions(const ClusterEvidence& evidence)
 {
     Check check = begun(evidence, "the other partition, brute over a sample");
     if (evidence.other_partition != evidence.facts)
-        check.find_wrong("the other partition has " + text_of(evidence.other_partition) + ", not " +
-                         text_of(evidence.facts));
+        check.find_wrong("the other partition has " + facts_text(evidence.other_partition) +
+                         ", not " + facts_text(evidence.facts));
     if (evidence.other_contacts != evidence.contacts)
         check.find_wrong("of contacts, the other partition has " +
-                         text_of(*evidence.other_contacts) + ", not " +
-                         text_of(*evidence.contacts));
+                         facts_text(*evidence.other_contacts) + ", not " +
+                         facts_text(*evidence.contacts));
     const PairList found(evidence.of_sample), right(evidence.right_of_sample);
     if (found != right || found.surplus() > 0 || right.surplus() > 0)
         check.find_wrong("brute force finds " + std::to_string(right.size()) +

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "collide/pairs.h"
-#include "harness/choice/choices.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
 

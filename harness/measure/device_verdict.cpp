@@ -2,18 +2,13 @@
 #include "harness/measure/device_verdict.h"
 
 #include "collide/oracles/pair_sets.h"
-#include "geometry/hash.h"
 #include "geometry/host_memory.h"
+#include "harness/judge/pair_counts.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr std::size_t sample_size = 10'000;
-
-std::string facts_text(const PairFacts& facts)
-{
-    return std::to_string(facts.count) + " pairs of the hash " + hex(facts.low) + hex(facts.high);
-}
 
 }  // namespace
 
