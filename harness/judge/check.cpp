@@ -44,13 +44,8 @@ std::string refit_violation(Session& session, Builder& builder, const Input& inp
     const Input moved_input = upload(session.device(), session.queue(), moved, input.faces);
     const Tree& tree = builder.refit(moved_input, session.queue());
     session.queue().finish();
-    const HostTree after = tree.to_host_tree();
-    const std::string wrong = invariant_violation(after, moved, input.faces);
-    if (!wrong.empty())
-        return "after a refit, " + wrong;
-    const bool is_same = tree_hash(after) == tree_hash(refitted(before, moved, input.faces)) ||
-                         has_topology_of(after, before, moved, input.faces);
-    return is_same ? "" : "a refit changed the topology";
+    const std::string wrong = check_refit(tree.to_host_tree(), before, moved_input, {}).detail;
+    return wrong.empty() ? "" : "after a refit, " + wrong;
 }
 
 }  // namespace

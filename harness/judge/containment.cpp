@@ -107,21 +107,18 @@ std::set<std::pair<std::size_t, std::size_t>> touching_objects(const Scene& scen
                                                                std::span<const Pair> contacts)
 {
     std::vector<std::size_t> object_of(scene.faces.size());
-    for (std::size_t object = 0; object < scene.objects.size(); ++object)
-        for (uint k = 0; k < scene.objects[object].face_count; ++k) {
-            const std::size_t face = scene.objects[object].first_face + k;
-            object_of[scene.file_faces.empty() ? face : scene.file_faces[face]] = object;
-        }
-    std::set<std::pair<std::size_t, std::size_t>> touching;
     std::vector<std::pair<uint, std::size_t>> users;  // vertices, with the objects that name them
     for (std::size_t object = 0; object < scene.objects.size(); ++object)
         for (uint k = 0; k < scene.objects[object].face_count; ++k) {
-            const Face& face = scene.faces[scene.objects[object].first_face + k];
+            const std::size_t at = scene.objects[object].first_face + k;
+            object_of[scene.file_faces.empty() ? at : scene.file_faces[at]] = object;
+            const Face& face = scene.faces[at];
             for (const uint corner : {face.a, face.b, face.c})
                 users.emplace_back(corner, object);
         }
     std::ranges::sort(users);
     users.erase(std::unique(users.begin(), users.end()), users.end());
+    std::set<std::pair<std::size_t, std::size_t>> touching;
     for (auto first = users.begin(); first != users.end(); ++first)
         for (auto other = first + 1; other != users.end() && other->first == first->first; ++other)
             touching.emplace(first->second, other->second);

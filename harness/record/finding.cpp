@@ -32,6 +32,12 @@ Findings with_words(std::string_view words, Findings findings)
     return findings;
 }
 
+bool is_any_broken(const Findings& findings)
+{
+    return std::ranges::count(findings | std::views::values, Finding::Verdict::broken,
+                              &Finding::verdict) > 0;
+}
+
 bool is_refused(const StressCell& cell)
 {
     return cell.kind != StressCell::Kind::host && !cell.findings.empty() &&
@@ -42,10 +48,7 @@ bool is_refused(const StressCell& cell)
 
 bool is_our_fault(const StressCell& cell)
 {
-    return cell.library.empty() &&
-           std::ranges::any_of(cell.findings | std::views::values, [](const Finding& one) {
-               return one.verdict == Finding::Verdict::broken;
-           });
+    return cell.library.empty() && is_any_broken(cell.findings);
 }
 
 }  // namespace bvhbench

@@ -70,6 +70,9 @@ struct StressCell {
 inline constexpr std::array stress_kind_names = {"builder", "collider", "host", "library"};
 inline constexpr std::array stress_verdict_names = {"holds", "refused", "broken"};
 
+/// True if an invariant is broken.
+bool is_any_broken(const Findings& findings);
+
 /// True if the system refused under every invariant. Always false for kind `host`, for which a refusal is an answer.
 bool is_refused(const StressCell& cell);
 

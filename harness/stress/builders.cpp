@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <future>
 
 #include "builders/host_tree.h"
@@ -41,12 +40,6 @@ Finding judge_layout(const BuilderEntry& entry, const Tree& tree, const Builder&
     if (builder.footprint(triangles) != builder.reserved())
         return {broken, nodes, 0, 0, "it reserves other memory than it predicts"};
     return {holds, nodes};
-}
-
-bool is_any_broken(const Findings& findings)
-{
-    return std::any_of(findings.begin(), findings.end(),
-                       [](const auto& one) { return one.second.verdict == broken; });
 }
 
 /// Builds once. Returns findings about launches and layout, and the tree, whose leaves and boxes are not judged yet.
