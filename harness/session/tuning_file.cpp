@@ -28,6 +28,7 @@ BVHBENCH_TO_JSON(TunedValue, value, target, scene, ratio, samples, found_at, com
 namespace {
 
 constexpr auto format = "tuning 1";
+constexpr double most_ratio = 1e9;
 constexpr std::uint64_t most_units = 1 << 20, most_group_memory = std::uint64_t{1} << 32;
 const std::initializer_list<const char*> embedded_files = {BVHBENCH_TUNINGS};
 
@@ -46,23 +47,16 @@ TunedValue value_of(const Json& json, const Parameter& parameter)
     refuse_unknown_keys(json,
                         {"value", "target", "scene", "ratio", "samples", "found_at", "commit"},
                         std::string(parameter.name));
-    if (!json["value"].is_number_unsigned() || json["value"].get<std::uint64_t>() > parameter.most)
-        throw BadUsage(std::string(parameter.name) + " must be from " +
-                       std::to_string(parameter.least) + " to " + std::to_string(parameter.most) +
-                       ", not " + json["value"].dump());
     TunedValue value;
-    value.value = json["value"].get<uint>();
+    value.value = number_of<uint>(json["value"], std::string(parameter.name), parameter.least,
+                                  parameter.most);
     if (const std::string why = parameter.refusal(value.value); !why.empty())
         throw BadUsage(std::string(parameter.name) + ' ' + why);
     value.target = text_in(json, "target");
     value.scene = text_in(json, "scene");
     value.found_at = text_in(json, "found_at");
     value.commit = text_in(json, "commit");
-    if (json.contains("ratio")) {
-        if (!json["ratio"].is_number())
-            throw BadUsage("'ratio' must be a number, not " + json["ratio"].dump());
-        value.ratio = json["ratio"].get<double>();
-    }
+    read_number(json, "ratio", 0, most_ratio, value.ratio);
     read_number(json, "samples", 0, most_samples, value.samples);
     return value;
 }

@@ -87,7 +87,8 @@ TEST(TuningFile, RefusesInOneSentenceWhatCannotBe)
     for (const char* value : {"99", "0", "-3", "2.5", "\"3\"", "4294967299", "null"})
         EXPECT_EQ(
             says(with_values(R"({"sweep.keys_per_item": {"value": )" + std::string(value) + "}}")),
-            "x.json: sweep.keys_per_item must be from 1 to 32, not " + std::string(value));
+            "x.json: sweep.keys_per_item must be a whole number from 1 to 32, not " +
+                std::string(value));
     EXPECT_NE(says(with_values(R"({"sweep.keys_per_item": {"value": 3, "luck": 1}})"))
                   .find("'luck' is no key"),
               std::string::npos);
