@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <optional>
 
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"

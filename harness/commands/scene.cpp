@@ -8,6 +8,7 @@
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/measure/frames.h"
+#include "harness/measure/planned_scenes.h"
 #include "harness/record/output.h"
 #include "scenes/facts.h"
 
@@ -103,11 +104,8 @@ public:
         SceneLibrary library = scene_library(common);
         library.tell = {};  // the table has it
         library.any_topology = true;
-        std::vector<std::string> inputs;
-        for (const std::string& name : names_)
-            for (const std::string& file : scene_files(name, library))
-                inputs.push_back(file);
-        const Output json(json_, "--json", {.force = common.force, .inputs = inputs});
+        const Output json(json_, "--json",
+                          {.force = common.force, .inputs = files_of(names_, library)});
         std::string text;
         int code = 0;
         for (const std::string& name : names_) {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <optional>
 
 #include "cluster/lone_rank.h"
 #include "cluster/share.h"

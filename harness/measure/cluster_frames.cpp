@@ -2,7 +2,6 @@
 #include "harness/measure/cluster_frames.h"
 
 #include <array>
-#include <chrono>
 #include <numeric>
 
 #include "cluster/point_routes.h"
@@ -10,6 +9,8 @@
 #include "geometry/error.h"
 #include "harness/measure/cluster_part.h"
 #include "harness/measure/cluster_verdict.h"
+#include "harness/measure/engine.h"
+#include "harness/measure/frames.h"
 
 namespace bvhbench {
 namespace {
@@ -19,11 +20,11 @@ void rebalance(ClusterPart& part, ClusterFrame& result, Ranks& ranks)
 {
     const std::vector<uint> work = work_of(part.frame.share(), part.frame.pairs());
     ranks.wait_for_all();
-    const auto start = std::chrono::steady_clock::now();
-    Cut next = cut(part.frame.share(), PartitionBy::rcb, work, ranks);
-    ranks.wait_for_all();
-    result.rebalance_ns =
-        std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+    Cut next;
+    result.rebalance_ns = host_ns([&] {
+        next = cut(part.frame.share(), PartitionBy::rcb, work, ranks);
+        ranks.wait_for_all();
+    });
     std::array<std::uint64_t, 1> moved{next.left};
     ranks.sum(moved);
     result.moved_triangles = moved[0];
@@ -113,10 +114,7 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask&
     }
     if (!is_first)
         return;
-    result.scene.name = found.scene.name;
-    result.scene.triangles = found.scene.triangle_count();
-    result.scene.vertices = std::ssize(found.scene.frames.front());
-    result.scene.content_hash = found.scene.content_hash;
+    result.scene = facts_of(found.scene, found.scene.name, task.frames.first);
     result.check = verdict_of_all(evidence, found.scene, result, session);
 }
 

@@ -2,12 +2,12 @@
 #include "harness/measure/cluster_part.h"
 
 #include <array>
-#include <chrono>
 #include <optional>
 
 #include "cluster/rebalance.h"
 #include "geometry/host_memory.h"
 #include "harness/base/test_hooks.h"
+#include "harness/measure/engine.h"
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
 
@@ -47,10 +47,11 @@ Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& t
 {
     ranks.wait_for_all();
     stop_at("partition", ranks.rank());
-    const auto start = std::chrono::steady_clock::now();
-    Share share = cut(std::move(run), by, {}, ranks).share;
-    ranks.wait_for_all();
-    took_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+    Share share;
+    took_ns = host_ns([&] {
+        share = cut(std::move(run), by, {}, ranks).share;
+        ranks.wait_for_all();
+    });
     return share;
 }
 

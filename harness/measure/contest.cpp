@@ -2,9 +2,7 @@
 #include "harness/measure/contest.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "harness/base/table.h"
@@ -191,9 +189,7 @@ std::string Contest::why_lost(std::size_t k) const
         best = std::isnan(sum) ? best : std::min(best, sum);
     if (race_ == Race::none || !(sums_[k] > lost * best))
         return "";
-    std::array<char, 32> times{};
-    std::snprintf(times.data(), times.size(), "%.1f", sums_[k] / best);
-    return "left behind: over the frames before, " + std::string(times.data()) + " times the " +
+    return "left behind: over the frames before, " + fixed(sums_[k] / best, 1) + " times the " +
            (race_ == Race::memory ? "memory" : "time") + " of the best";
 }
 

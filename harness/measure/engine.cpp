@@ -234,10 +234,7 @@ void Engine::sample(std::span<Measurement> measurements, Caches caches, std::spa
              cell.samples, bytes_held(cell),
              [this, on_host] { return on_host ? wall_ns_ : session_.queue().wall_ns(); }});
     }
-    std::vector<CellSamples> taken;
-    {
-        taken = session_samples(session_, timed, plan_, caches, order_);
-    }
+    std::vector<CellSamples> taken = session_samples(session_, timed, plan_, caches, order_);
     for (std::size_t k = 0; k < ready.size(); ++k) {
         Measurement& one = measurements[ready[k]];
         Cell& cell = cells[ready[k]];

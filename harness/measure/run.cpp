@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "device/yardsticks.h"
-#include "geometry/error.h"
 #include "harness/base/failure.h"
 #include "harness/base/test_hooks.h"
 #include "harness/measure/cluster.h"

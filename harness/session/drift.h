@@ -45,9 +45,8 @@ public:
             return;
         const double usual = median();
         for (Sample& sample : samples) {
-            const auto after = std::upper_bound(
-                results_.begin() + 1, results_.end() - 1, sample.order,
-                [](int order, const Result& result) { return order < result.order; });
+            const auto after = std::ranges::upper_bound(results_.begin() + 1, results_.end() - 1,
+                                                        sample.order, {}, &Result::order);
             const double before_ns = (after - 1)->ns;
             sample.calibration_ns = std::llround((before_ns + after->ns) / 2);
             sample.drifted = is_off(before_ns, usual) || is_off(after->ns, usual);
