@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/base/python.h"
 
-#include <re2/re2.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -20,12 +19,12 @@
 namespace bvhbench {
 namespace {
 
-std::filesystem::path script_called(const std::string& name)
+std::filesystem::path commands_script()
 {
     const char* variable = std::getenv("BVHBENCH_HOME");
     const std::filesystem::path home =
         variable != nullptr && *variable != '\0' ? variable : build_info.source_root;
-    const std::filesystem::path path = home / "plots" / name;
+    const std::filesystem::path path = home / "plots" / "__main__.py";
     if (!std::filesystem::exists(path))
         throw Unavailable(path.string() +
                           " is not there (BVHBENCH_HOME names the folder with plots/)");
@@ -37,24 +36,23 @@ constexpr const char* system_python = "/usr/bin/python3";
 /// Prefers /usr/bin/python3, which sees the system's NumPy and matplotlib; another Python earlier in PATH may not.
 std::string python() { return access(system_python, X_OK) == 0 ? system_python : "python3"; }
 
-/// Returns the words that start a script of plots/. The system's Python is told to ignore what may be meant for another one
+/// Returns the words that run a command of plots/. The system's Python is told to ignore what may be meant for another one
 /// (PYTHONHOME, PYTHONPATH, packages of the user), with which it may not start.
-std::vector<std::string> start_of(const std::string& script)
+std::vector<std::string> start_of(const std::vector<std::string>& command)
 {
     unsetenv("MPLBACKEND");  // pictures are files, and an unknown name is refused
     std::vector<std::string> words = {python()};
     if (words.front() == system_python)
         words.emplace_back("-Es");
-    words.push_back(script_called(script));
+    words.push_back(commands_script());
+    words.insert(words.end(), command.begin(), command.end());
     return words;
 }
 
-/// Runs a script of plots/ to its end and prints its errors, except where a missing module explains a failure. Returns why it
-/// failed, as the end of a sentence; empty if it did not.
-std::string failure_of(const std::string& script, const std::vector<std::string>& arguments)
+/// Runs a command of plots/ to its end. Returns how it failed, as the end of a sentence; empty if it did not.
+std::string failure_of(const std::vector<std::string>& command)
 {
-    std::vector<std::string> words = start_of(script);
-    words.insert(words.end(), arguments.begin(), arguments.end());
+    const std::vector<std::string> words = start_of(command);
     std::cout.flush();
     Child child({.path = python(),
                  .words = words,
@@ -64,24 +62,17 @@ std::string failure_of(const std::string& script, const std::vector<std::string>
     while (child.take()) {
     }
     const ProcessEnd end = child.wait();
-    const bool is_done = end.how == ProcessEnd::How::exited && end.code == 0;
-    std::string module;
-    if (!is_done &&
-        RE2::PartialMatch(end.output, "(?s).*ModuleNotFoundError: No module named '([^']*)'",
-                          &module))
-        return python() + " has no module " + module;
     std::cerr << end.output;
-    if (is_done)
+    if (end.how == ProcessEnd::How::exited && end.code == 0)
         return {};
-    return python() + ' ' + script_called(script).string() + ' ' + spelled(end, 0);
+    return python() + ' ' + commands_script().string() + ' ' + spelled(end, 0);
 }
 
 }  // namespace
 
 void become_python(const std::vector<std::string>& words)
 {
-    std::vector<std::string> all = start_of("__main__.py");
-    all.insert(all.end(), words.begin(), words.end());
+    std::vector<std::string> all = start_of(words);
     std::vector<char*> argv;
     for (std::string& word : all)
         argv.push_back(word.data());
@@ -102,28 +93,26 @@ void print_tables(const std::string& document, const CommonOptions& common)
     std::vector<std::string> words = {"show", file.path()};
     if (common.wide)
         words.emplace_back("--wide");
-    const std::string failure = failure_of("__main__.py", words);
+    const std::string failure = failure_of(words);
     if (!failure.empty())
         throw Unavailable("no tables were printed, " + failure);
 }
 
-std::string draw(const std::string& script, const std::filesystem::path& file,
-                 const std::filesystem::path& folder, bool force)
+std::string draw(const std::filesystem::path& file, const std::filesystem::path& folder, bool force)
 {
-    std::vector<std::string> words = {file.string(), "--out", folder.string()};
+    std::vector<std::string> words = {"plot", file.string(), "--out", folder.string()};
     if (force)
         words.emplace_back("--force");
     std::string failure;
     try {
-        failure = failure_of(script, words);
+        failure = failure_of(words);
     } catch (const Unavailable& error) {
         failure = error.what();
     }
-    if (failure.empty())
-        return "drawn into " + folder.string();
-    return "nothing was drawn, " + failure +
-           "; where Python and matplotlib are, draw it with: python3 plots/" + script + ' ' +
-           file.string() + " --out " + folder.string();
+    return failure.empty() ? ""
+                           : "nothing was drawn, " + failure +
+                                 "; where Python and matplotlib are, draw it with: bvhbench plot " +
+                                 file.string() + " --out " + folder.string() + '\n';
 }
 
 }  // namespace bvhbench

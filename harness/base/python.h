@@ -17,8 +17,9 @@ namespace bvhbench {
 /// Prints the tables of a result document, unless --quiet is given. Throws Unavailable if Python cannot be run or fails.
 void print_tables(const std::string& document, const CommonOptions& common);
 
-/// Runs `script` of plots/ to draw the result file into `folder`. Returns one line that says what was drawn, or why not.
-std::string draw(const std::string& script, const std::filesystem::path& file,
-                 const std::filesystem::path& folder, bool force);
+/// Draws the result file into `folder` by `plot`, which says what it drew. Returns one line that says why nothing was drawn; empty if
+/// it was.
+std::string draw(const std::filesystem::path& file, const std::filesystem::path& folder,
+                 bool force);
 
 }  // namespace bvhbench

@@ -65,7 +65,7 @@ public:
         print_tables(results.text(), common);
         std::cout << results.written();
         const int code = results.exit_code();
-        std::cout << draw("figures", file, folder, common.force) << '\n';
+        std::cout << draw(file, folder, common.force);
         return code;
     }
 

@@ -15,7 +15,7 @@ from ..files.reserved import reserved
 from ..program import child, command
 from ..read import results
 
-FIGURES = pathlib.Path(__file__).resolve().parents[1] / "figures"
+PLOTS = pathlib.Path(__file__).resolve().parents[1]
 PAGE_SCENE = ("--scene", "cloth-funnel:2000:4", "--frame", "3")  # small, and with contacts
 CANNOT, NOTHING = 3, 4  # exit codes: something required is missing; nothing was measured
 
@@ -91,30 +91,21 @@ def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> in
     print(run_page.text(run) + table(run) + printed.decode(errors="surrogateescape"), end="", flush=True)
     if code != NOTHING:
         for name in shown:
-            print(drawn(name, file, arguments), flush=True)
+            draw(name, file, arguments)
     return code
 
 
-def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
-    """Draws a figure and returns a message about the outcome. A failed drawing does not invalidate the measurement."""
-    words = [sys.executable, str(FIGURES), file, "--only", name, "--out", arguments.out, *["--force"] * arguments.force]
-    with child.handed_on() as children:
-        drawing = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, errors="surrogateescape")
-        children(drawing)
-        _, said = drawing.communicate()
-    code = drawing.returncode
-    if -code in command.ENDING:
-        raise SystemExit(128 - code)
-    _, is_missing, module = said.rpartition("\nModuleNotFoundError: No module named '")
-    if not is_missing:
-        print(said, end="", file=sys.stderr)
-    if code == 0:
-        return f"drawn into {arguments.out}"
-    end = f"ended with {code}" if code > 0 else "could not be run to its end"
-    named = module.partition("'")[0]
-    why = f"{sys.executable} has no module {named}" if is_missing else f"{sys.executable} {FIGURES} {end}"
-    return (f"nothing was drawn, {why}; where Python and matplotlib are, draw it with: python3 plots/figures {file} "
-            f"--only {name} --out {arguments.out}")
+def draw(name: str, file: str, arguments: argparse.Namespace) -> None:
+    """Draws a figure in a process of its own, which says what it drew, or why not. A failed drawing does not invalidate the measurement."""
+    words = ["plot", file, "--only", name, "--out", arguments.out, *["--force"] * arguments.force]
+    with child.handed_on() as add:
+        drawing = subprocess.Popen([sys.executable, str(PLOTS), *words])
+        add(drawing)
+        code = child.code_of(drawing)
+    if code - 128 in command.ENDING:
+        raise SystemExit(code)
+    if code != 0:
+        print(f"nothing was drawn; where Python and matplotlib are, draw it with: bvhbench {' '.join(words)}", flush=True)
 
 
 def page(arguments: argparse.Namespace, files: list[str], out: str) -> int:

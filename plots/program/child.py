@@ -10,20 +10,22 @@ from ..files.json_files import Refused
 from . import command
 
 
-def environment() -> dict[str, str]:
-    """Returns the environment of a child that ends whenever this process ends, for any reason."""
-    return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
-
-
 def started(words: list[str], **streams: int | IO[bytes] | None) -> subprocess.Popen[bytes]:
     """Starts the program. Raises Refused if it cannot be started.
 
     The child has its own process group, so a terminal's Ctrl-C reaches it only once, forwarded by this process. A second signal
     would end it before it has saved its results."""
     try:
-        return subprocess.Popen([command.PROGRAM, *words], env=environment(), process_group=0, **streams)
+        ends_with_us = {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}  # for any reason
+        return subprocess.Popen([command.PROGRAM, *words], env=ends_with_us, process_group=0, **streams)
     except OSError as error:
         raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
+
+
+def code_of(child: subprocess.Popen) -> int:
+    """Waits for a child and returns its exit code: 128 + signal number if a signal ended it."""
+    code = child.wait()
+    return code if code >= 0 else 128 - code
 
 
 def run(words: list[str], is_kept: bool = False, given: bytes | None = None, errors: IO[bytes] | None = None) -> tuple[int, bytes]:
@@ -35,7 +37,7 @@ def run(words: list[str], is_kept: bool = False, given: bytes | None = None, err
                         stdout=subprocess.PIPE if is_kept else subprocess.DEVNULL, stderr=errors)
         add(child)
         printed, _ = child.communicate(given)
-    return (child.returncode if child.returncode >= 0 else 128 - child.returncode), printed or b""
+    return code_of(child), printed or b""
 
 
 def run_shown(several: list[list[str]]) -> int:
@@ -45,8 +47,7 @@ def run_shown(several: list[list[str]]) -> int:
         for words in several:
             children.append(started(words, stdin=subprocess.DEVNULL))
             add(children[-1])
-        codes = [one.wait() for one in children]
-    return max(code if code >= 0 else 128 - code for code in codes)
+        return max(map(code_of, children))
 
 
 @contextlib.contextmanager

@@ -50,7 +50,7 @@ UNFORESEEN = (  # of a cell
 
 class Malformed(InFolder):
     def assert_told(self, path: pathlib.Path, words: str) -> None:
-        for script, out in (("__main__.py report", self.folder / "r.html"), ("figures", self.folder / "out")):
+        for script, out in (("__main__.py report", self.folder / "r.html"), ("__main__.py plot", self.folder / "out")):
             done = self.run_script(script, path, "--out", out)
             self.assertEqual((done.returncode, done.stdout), (3, ""), done)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
@@ -129,7 +129,7 @@ class Outputs(InFolder):
         document = golden("table1")
         document["cells"] = [cell for cell in document["cells"] if cell["scene"]["name"] == "bunny"]  # few are drawn in less time
         self.small = self.written(document)
-        self.made = (("__main__.py report", self.page, self.page), ("figures --only table1", self.picture, self.folder))
+        self.made = (("__main__.py report", self.page, self.page), ("__main__.py plot --only table1", self.picture, self.folder))
 
     def make(self, code: int, script: str, out: pathlib.Path, *more: str) -> str:
         """Runs a script and returns its standard error."""
@@ -202,11 +202,11 @@ class Outputs(InFolder):
             self.assertEqual(path.read_bytes(), TABLE1.read_bytes())
 
     def test_a_folder_is_made_for_pictures_and_not_for_a_page(self) -> None:
-        self.make(0, "figures --only table1", self.folder / "a" / "b")
+        self.make(0, "__main__.py plot --only table1", self.folder / "a" / "b")
         self.assert_made(self.folder / "a" / "b" / "table1.svg")
         self.assertIn("there is no folder", self.make(3, "__main__.py report", self.folder / "c" / "r.html"))
         self.assertFalse((self.folder / "c").exists())
-        self.assertIn("cannot be made: ", self.make(3, "figures --only table1", self.folder / "a" / "b" / "table1.svg" / "d"))
+        self.assertIn("cannot be made: ", self.make(3, "__main__.py plot --only table1", self.folder / "a" / "b" / "table1.svg" / "d"))
 
 
 if __name__ == "__main__":

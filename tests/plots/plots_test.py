@@ -49,13 +49,13 @@ class Scripts(InFolder):
                                               "rebuild", "pairs", "families", "quality", "table1", "effects")}
         figures |= {"accuracy": tuple(f"accuracy-{axis}" for axis in axes), "table2": ("table2", "table2-fig9", "table2-fig10")}
         files = [*figures, "headlines"] if ALL_CASES else ["table1", "table2", "headlines"]  # .ci/run draws all by `reproduce all`
-        self.made("figures", *(GOLDEN / f"{file}.json" for file in files), "--out", self.folder / "out")
+        self.made("__main__.py plot", *(GOLDEN / f"{file}.json" for file in files), "--out", self.folder / "out")
         pictures = {picture for file in files for picture in figures.get(file, ())}
         for picture in pictures:
             self.assert_pictures(picture)
         self.assertEqual({path.stem for path in (self.folder / "out").iterdir()}, {*pictures, "headlines-overview"})  # a small one
         self.assert_says_what_a_reader_must_know(self.folder / "out" / "table1.svg")
-        self.made("figures --only fig9", GOLDEN / "table2.json", "--out", self.folder / "one")
+        self.made("__main__.py plot --only fig9", GOLDEN / "table2.json", "--out", self.folder / "one")
         for alone in (self.folder / "one").iterdir():
             self.assertEqual(alone.read_bytes(), (self.folder / "out" / alone.name).read_bytes(), alone.name)
 
@@ -67,7 +67,7 @@ class Scripts(InFolder):
 
     def test_a_wrong_answer_makes_no_picture(self) -> None:
         self.document["cells"][4]["check"] = {"verdict": "differs", "detail": "box 7"}
-        done = self.made("figures", self.written(self.document), "--out", self.folder / "out", code=3)
+        done = self.made("__main__.py plot", self.written(self.document), "--out", self.folder / "out", code=3)
         self.assertIn("gave a wrong answer on bunny: box 7", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
@@ -77,16 +77,16 @@ class Scripts(InFolder):
             cell.pop("samples", None)
             cell.update(status="skipped", reason="too large")
         path = self.written(self.document, "no.json")
-        done = self.made("figures", path, "--out", self.folder / "out", code=3)
+        done = self.made("__main__.py plot", path, "--out", self.folder / "out", code=3)
         self.assertIn(f"{path}: there is no figure of what it holds: smoke ({len(self.document['cells'])} cells)", done.stderr)
         (self.folder / "table1.json").unlink(missing_ok=True)
-        done = self.run_script("figures", self.folder, "--out", self.folder / "out")
+        done = self.run_script("__main__.py plot", self.folder, "--out", self.folder / "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""), "in a folder it is passed over")
 
     def test_cells_of_several_devices_make_no_picture(self) -> None:
         source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}
         self.document["merged_from"] = [source, source | {"id": "b", "driver": "2"}]
-        done = self.made("figures", self.written(self.document), "--out", self.folder / "out", code=3)
+        done = self.made("__main__.py plot", self.written(self.document), "--out", self.folder / "out", code=3)
         self.assertIn("merged from several devices, which no figure tells apart: one, driver 1; one, driver 2", done.stderr)
 
 
