@@ -36,16 +36,17 @@ std::string text_at(const Json& json, const char* key)
     return value.get<std::string>();
 }
 
-std::string text_in(const Json& json, const char* key)
+std::string text_in(const Json& json, const char* key, const std::string& usual)
 {
-    return json.contains(key) ? text_at(json, key) : std::string();
+    return json.contains(key) ? text_at(json, key) : usual;
 }
 
-bool truth_at(const Json& json, const char* key)
+bool is_true(const Json& json, const char* key)
 {
-    if (!json.at(key).is_boolean())
-        throw BadUsage("'" + std::string(key) + "' is true or false, not " + json[key].dump());
-    return json[key].get<bool>();
+    const Json value = json.value(key, Json(false));
+    if (!value.is_boolean())
+        throw BadUsage("'" + std::string(key) + "' is true or false, not " + value.dump());
+    return value.get<bool>();
 }
 
 std::string json_reason(const std::exception& error)

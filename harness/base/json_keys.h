@@ -35,8 +35,9 @@ std::string one_line(const Json& json);
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where);
 std::string text_at(const Json& json, const char* key);
-std::string text_in(const Json& json, const char* key);  ///< empty if the key is missing
-bool truth_at(const Json& json, const char* key);
+std::string text_in(const Json& json, const char* key,
+                    const std::string& usual = {});  ///< `usual` if the key is missing
+bool is_true(const Json& json, const char* key);     ///< false if the key is missing
 
 /// Returns the number. An integral `Number` must be a whole one. `what` names it in the sentence.
 template <class Number>
@@ -59,9 +60,32 @@ void read_number(const Json& json, const char* key, std::type_identity_t<Number>
         value = number_of<Number>(json[key], key, least, most);
 }
 
+/// Sets the key, unless the value is empty, 0 or false.
+template <class Value>
+void put_if(Json& json, const char* key, const Value& value)
+{
+    if (value != Value{})
+        json[key] = value;
+}
+
 /// Returns where a text stops being JSON. Of other errors of the JSON library, returns the message: one printable line, cut after
 /// 200 characters.
 std::string json_reason(const std::exception& error);
+
+/// Returns what `read` makes of a JSON text. Throws BadUsage, with `origin` in front unless it is empty, if the text is not JSON or `read`
+/// throws one.
+template <class Read>
+auto read_json(std::string_view text, const std::string& origin, const Read& read)
+{
+    const std::string where = origin.empty() ? "" : origin + ": ";
+    try {
+        return read(Json::parse(text));
+    } catch (const Json::exception& error) {
+        throw BadUsage(where + json_reason(error));
+    } catch (const BadUsage& error) {
+        throw BadUsage(where + error.what());
+    }
+}
 
 /// Calls `add` with each item of the list at `key`. Throws BadUsage unless that is a list of at least one item.
 void read_list(const Json& json, const char* key, const std::function<void(const Json&)>& add);

@@ -7,23 +7,11 @@
 #include "builders/orders.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
-#include "geometry/names.h"
 #include "harness/choice/choices.h"
 #include "scenes/catalog.h"
 
 namespace bvhbench {
 namespace {
-
-/// Returns the value of `Kind` with this name among `names`.
-template <class Kind, std::size_t count>
-Kind value_called(const std::string& what, const std::string& name,
-                  const std::string_view (&names)[count])
-{
-    const auto found = std::ranges::find(names, name);
-    if (found == std::end(names))
-        throw BadUsage("no " + what + " is called '" + name + '\'' + there_are(name, names));
-    return static_cast<Kind>(found - std::begin(names));
-}
 
 /// Returns the words of `cluster` that an entry stands for.
 std::vector<std::string> words_of(const Json& json)
@@ -42,16 +30,6 @@ std::vector<std::string> words_of(const Json& json)
 }
 
 }  // namespace
-
-PartitionBy partition_called(const std::string& name)
-{
-    return value_called<PartitionBy>("partition", name, partition_names);
-}
-
-ClusterCheck cluster_check_called(const std::string& name)
-{
-    return value_called<ClusterCheck>("check", name, cluster_check_names);
-}
 
 void check_task(const ClusterTask& task)
 {
@@ -87,18 +65,17 @@ ClusterTask cluster_task_of(const Json& json, const std::string& experiment)
     CellChoice choice{.collider = task.pipeline.collider};
     read_choices(json, Choice::Of::query, choice);
     task.pipeline.collider = choice.collider;
-    const auto text_of = [&](const char* key, std::string usual) {
-        return json.contains(key) ? text_at(json, key) : std::move(usual);
-    };
     BuilderChoice& builder = task.pipeline.builder;
-    builder.name = text_of("builder", builder.name);
-    builder.order = text_of("order", builder.order);
-    task.pipeline.collider.name = text_of("collider", task.pipeline.collider.name);
-    task.partition = partition_called(text_of("partition", "rcb"));
-    task.check = cluster_check_called(text_of("check", "auto"));
+    builder.name = text_in(json, "builder", builder.name);
+    builder.order = text_in(json, "order", builder.order);
+    task.pipeline.collider.name = text_in(json, "collider", task.pipeline.collider.name);
+    task.partition =
+        value_called<PartitionBy>("partition", text_in(json, "partition", "rcb"), partition_names);
+    task.check =
+        value_called<ClusterCheck>("check", text_in(json, "check", "auto"), cluster_check_names);
     if (json.contains("frames"))
         task.frames = frame_range(text_at(json, "frames"));
-    task.share_devices = json.contains("share_devices") && truth_at(json, "share_devices");
+    task.share_devices = is_true(json, "share_devices");
     check_task(task);
     return task;
 }

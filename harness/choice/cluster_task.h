@@ -3,6 +3,7 @@
 // One scene on several ranks: what `cluster` measures, and an entry of an experiment's `clusters`.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "cluster/halo.h"
 #include "cluster/partition.h"
+#include "geometry/names.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/scene_choice.h"
 
@@ -47,9 +49,16 @@ struct ClusterTask {
     bool moves() const { return frames != FrameRange{}; }
 };
 
-/// Returns the partition, and the check, of that name. Throws BadUsage if there is none.
-PartitionBy partition_called(const std::string& name);
-ClusterCheck cluster_check_called(const std::string& name);
+/// Returns the value of `Kind` with this name among `names`. Throws BadUsage, which says what it is of, if there is none.
+template <class Kind, std::size_t count>
+Kind value_called(const std::string& what, const std::string& name,
+                  const std::string_view (&names)[count])
+{
+    const auto found = std::ranges::find(names, name);
+    if (found == std::end(names))
+        throw BadUsage("no " + what + " is called '" + name + '\'' + there_are(name, names));
+    return static_cast<Kind>(found - std::begin(names));
+}
 
 /// Throws BadUsage for what can be on no device, before any process is started.
 void check_task(const ClusterTask& task);

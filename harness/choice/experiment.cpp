@@ -110,8 +110,7 @@ Experiment experiment_of(const Json& json, bool quick)
     if (json.contains("doubles"))
         experiment.doubles = doubles_called(text_at(json, "doubles"));
     experiment.sampling = sampling_of(json);
-    if (json.contains("quality"))
-        experiment.quality = truth_at(json, "quality");
+    experiment.quality = is_true(json, "quality");
     if (collides)
         experiment.collisions = collisions_of(json, experiment.name, quick);
     for (CollideTask& task : experiment.collisions)
@@ -146,13 +145,7 @@ std::span<const std::string_view> experiment_names()
 
 Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick)
 {
-    try {
-        return experiment_of(Json::parse(text), quick);
-    } catch (const Json::exception& error) {
-        throw BadUsage(origin + ": " + json_reason(error));
-    } catch (const BadUsage& error) {
-        throw BadUsage(origin + ": " + error.what());
-    }
+    return read_json(text, origin, [&](const Json& json) { return experiment_of(json, quick); });
 }
 
 std::string experiment_text(const std::string& name_or_path)

@@ -182,7 +182,7 @@ std::vector<CollideTask> collisions_of(const Json& json, const std::string& expe
         for (PipelineChoice& choice : pipelines_of(item))
             pipelines.push_back(std::move(choice));
     });
-    if (json.contains("skips") && truth_at(json, "skips"))
+    if (is_true(json, "skips"))
         pipelines = with_each_rule_off(pipelines);
     std::vector<CollideTask> tasks;
     read_list(of("scenes"), "scenes", [&](const Json& item) {

@@ -21,8 +21,7 @@ RunPlan plan_of(const Json& json, bool quick)
         described["experiment"] = plan.name;
         plan.parts.push_back(experiment_of(described, quick));
     }
-    for (const Json& cell : json.value("impossible", Json::array()))
-        plan.impossible.push_back(cell);
+    plan.impossible = json.value("impossible", std::vector<Json>());
     return plan;
 }
 
@@ -30,14 +29,8 @@ RunPlan plan_of(const Json& json, bool quick)
 
 RunPlan find_plan(const std::string& name_or_path, bool quick)
 {
-    const std::string text = experiment_text(name_or_path);
-    try {
-        return plan_of(Json::parse(text), quick);
-    } catch (const Json::exception& error) {
-        throw BadUsage(name_or_path + ": " + json_reason(error));
-    } catch (const BadUsage& error) {
-        throw BadUsage(name_or_path + ": " + error.what());
-    }
+    return read_json(experiment_text(name_or_path), name_or_path,
+                     [&](const Json& json) { return plan_of(json, quick); });
 }
 
 PlanShare share_called(const std::string& text)

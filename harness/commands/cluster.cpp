@@ -74,18 +74,15 @@ public:
             return start_ranks(invocation);
         const std::unique_ptr<HostedRanks> ranks = start_mpi();
         int code = 0;
-        std::string sentence;
-        try {
-            return run_rank(*ranks, invocation);
-        } catch (const BadUsage& error) {  // of no rank in particular
-            code = 2;
-            sentence = sentence_of(error);
-        } catch (const std::exception& error) {
-            code = 3;
-            sentence = "rank " + std::to_string(ranks->rank()) + " on " + ranks->host() + ": " +
-                       sentence_of(error);
-        }
-        std::cerr << "bvhbench: " + sentence + '\n';  // in one piece: other ranks may write too
+        bool of_all = false;  // and of no rank in particular
+        const auto run = [&] { code = run_rank(*ranks, invocation); };
+        const std::string why = reason_of_failure(run, &of_all);
+        if (why.empty())
+            return code;
+        code = of_all ? 2 : 3;
+        const std::string where =
+            of_all ? "" : "rank " + std::to_string(ranks->rank()) + " on " + ranks->host() + ": ";
+        std::cerr << "bvhbench: " + where + why + '\n';  // in one piece: other ranks may write too
         std::cerr.flush();
         ranks->end_all(code);
         return code;
@@ -109,15 +106,14 @@ private:
     /// Throws BadUsage for wrong options, before any process is started.
     void check()
     {
-        task_.partition = partition_called(partition_);
-        task_.check = cluster_check_called(check_);
+        task_.partition = value_called<PartitionBy>("partition", partition_, partition_names);
+        task_.check = value_called<ClusterCheck>("check", check_, cluster_check_names);
         task_.pipeline = {choice_.builder, choice_.collider};
         task_.wants_pairs = !pairs_.empty();
-        if (task_.wants_pairs)
-            check_pairs_path(pairs_, {});
         task_.wants_contacts = !contacts_.empty();
-        if (task_.wants_contacts)
-            check_pairs_path(contacts_, {});
+        for (const std::string& path : {pairs_, contacts_})
+            if (!path.empty())
+                check_pairs_path(path, {});
         if (task_.wants_contacts && task_.pipeline.collider.narrow == "none")
             throw BadUsage("--contacts takes a narrow phase: --narrow exact");
         const std::optional<unsigned> started = ranks_started();

@@ -36,7 +36,7 @@ Json expanded(const Json& described, const SceneLibrary& library)
 {
     try {
         const Experiment experiment = parse_experiment(described.dump(), "", false);
-        Json cells = Json::array(), files = Json::array();
+        Json cells = Json::array();
         const std::vector<Cell> planned = cells_of(experiment);
         for (const Cell& cell : planned) {
             check_powers({cell.builder, cell.collider});
@@ -46,13 +46,11 @@ Json expanded(const Json& described, const SceneLibrary& library)
         if (is_sized_generator(scene))
             return {{"sized", true},
                     {"error", reason_of_failure([&] { triangles_in_name(scene); })}};
-        const std::size_t triangles = triangles_in_name(scene);
-        for (const std::string& file : scene_files(scene, library))
-            files.push_back(file);
-        return {{"cells", cells}, {"triangles", triangles}, {"files", files}};
+        return {{"cells", cells},
+                {"triangles", triangles_in_name(scene)},
+                {"files", scene_files(scene, library)}};
     } catch (const BadUsage& error) {
-        const std::string sentence = error.what();
-        return {{"error", sentence.starts_with(": ") ? sentence.substr(2) : sentence}};
+        return {{"error", error.what()}};
     }
 }
 

@@ -115,11 +115,9 @@ std::string device_slug(std::string_view device)
 TuningFile parse_tuning(std::string_view text, const std::string& origin)
 {
     try {
-        return file_of(Json::parse(text), origin);
-    } catch (const Json::exception& error) {
-        throw Unavailable(origin + ": " + json_reason(error));
+        return read_json(text, origin, [&](const Json& json) { return file_of(json, origin); });
     } catch (const BadUsage& error) {
-        throw Unavailable(origin + ": " + error.what());
+        throw Unavailable(error.what());
     }
 }
 
@@ -133,9 +131,7 @@ std::string tuning_text(const TuningFile& file)
     Json json = {{"format", format}, {"device", file.device}, {"driver", file.driver}};
     if (!file.kind.family.empty())
         json["kind"] = file.kind;
-    json["values"] = Json::object();
-    for (const auto& [name, value] : file.values)
-        json["values"][name] = value;
+    json["values"] = file.values;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
