@@ -86,10 +86,8 @@ Json cell_by_ranks(const ClusterTask& task, const CommonOptions& common)
 
 Json with_cluster_facts(Json run)
 {
-    if (const std::string mpi = mpi_version(); !mpi.empty())
-        run["libraries"]["MPI"] = mpi;
-    if (const std::string links = topology(); !links.empty())
-        run["topology"] = links;
+    put_if(run["libraries"], "MPI", mpi_version());
+    put_if(run, "topology", topology());
     return run;
 }
 

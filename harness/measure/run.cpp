@@ -51,8 +51,8 @@ Json measured_facts(Session& session, std::vector<std::string> command, const No
             facts["copy_rate_bytes_per_s"] = rate.bytes_per_s;
             facts["copy_rate_buffer_bytes"] = rate.buffer_bytes;
         }
-        if (const auto cost = measure_launch_cost(session.programs(), session.queue()); cost.ns > 0)
-            facts["launch_cost_ns"] = cost.ns;
+        put_if(facts, "launch_cost_ns",
+               measure_launch_cost(session.programs(), session.queue()).ns);
     });
     if (!failure.empty())
         session.renew_queue();  // a device without room for the copy can still build small trees

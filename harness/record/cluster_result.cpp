@@ -34,8 +34,7 @@ Json rank_json(const ClusterRank& rank, bool with_times)
                  {"own_pairs_count", last.own_pairs},
                  {"halo_pairs_count", last.halo_pairs},
                  {"contacts_count", last.contacts}};
-    if (rank.predicted_bytes != 0)
-        json["predicted_device_bytes"] = rank.predicted_bytes;
+    put_if(json, "predicted_device_bytes", rank.predicted_bytes);
     json["samples"] = Json::array();
     if (with_times)
         for (const RankFrame& frame : rank.frames)

@@ -88,8 +88,7 @@ EarlierRuns runs_in_result(const std::filesystem::path& path)
         throw BadUsage(path.string() + " is no result file");
     EarlierRuns earlier;
     earlier.last_run = json["run"];
-    for (const Json& run : json.value("merged_from", Json::array({json["run"]})))
-        earlier.runs.push_back(run);
+    earlier.runs = json.value("merged_from", std::vector<Json>{json["run"]});
     for (const Json& cell : json["cells"]) {
         const bool has_part = cell.contains("part");
         if (!has_part && cell.value("status", "") == "skipped")

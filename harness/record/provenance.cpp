@@ -140,8 +140,7 @@ Json run_facts(const Device& device, std::vector<std::string> command, const Nod
                       {"dirty", build_info.dirty},         {"build_type", build_info.build_type},
                       {"compiler", build_info.compiler},   {"arch", build_info.arch},
                       {"kernels", device.sources.origin()}};
-    if (!build_info.changed_files.empty())
-        run["program"]["changed_files"] = build_info.changed_files;
+    put_if(run["program"], "changed_files", build_info.changed_files);
     run["host"] = {{"name", system.nodename},
                    {"cpu", processor()},
                    {"threads", threads},
@@ -154,8 +153,7 @@ Json run_facts(const Device& device, std::vector<std::string> command, const Nod
     run["compile_ns"] = 0;
     run["node_costs"] = {{"inner", costs.inner}, {"triangle", costs.triangle}};
     run["conditions"] = host_conditions(build_info.build_type);
-    if (const auto hooks = test_hooks(); !hooks.empty())
-        run["test_hooks"] = hooks;
+    put_if(run, "test_hooks", test_hooks());
     return run;
 }
 

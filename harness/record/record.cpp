@@ -29,28 +29,18 @@ static void to_json(Json& json, const Sample& sample)
             json["stages"].push_back({{"stage", time.stage}, {"wall_ns", time.wall_ns}});
         else
             json["stages"].push_back(time);
-    if (sample.wall_ns > 0)
-        json["wall_ns"] = sample.wall_ns;
-    if (sample.calibration_ns > 0)
-        json["calibration_ns"] = sample.calibration_ns;
-    if (sample.drifted)
-        json["drifted"] = true;
+    put_if(json, "wall_ns", sample.wall_ns);
+    put_if(json, "calibration_ns", sample.calibration_ns);
+    put_if(json, "drifted", sample.drifted);
 }
 
 namespace {
-
-void put_if(Json& json, const char* key, const std::string& value)
-{
-    if (!value.empty())
-        json[key] = value;
-}
 
 Json json_of(const SceneFacts& scene)
 {
     Json json = {{"name", scene.name}};
     put_if(json, "objects_by", scene.objects_by);
-    if (scene.between > 0)
-        json["between"] = scene.between;
+    put_if(json, "between", scene.between);
     put_if(json, "exclude", scene.exclude);
     if (scene.filter_hash != 0)
         json["filter_hash"] = hex(scene.filter_hash);
@@ -126,8 +116,7 @@ std::string cell_text(const Cell& cell)
         json["accuracy"] = {{"axis", cell.accuracy.axis}, {"method", cell.accuracy.method}};
     if (cell.accuracy.seed > 0)
         json["accuracy"]["seed"] = cell.accuracy.seed;
-    if (!cell.cluster.is_null())
-        json["cluster"] = cell.cluster;
+    put_if(json, "cluster", cell.cluster);
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
@@ -140,11 +129,9 @@ std::string cell_text(const Cell& cell)
     if (cell.sampling.stopped != Stopped::not_sampled) {
         json["sampling"] = {{"stopped", stopped_name(cell.sampling.stopped)},
                             {"caches", caches_name(cell.sampling.caches)}};
-        if (cell.sampling.until > 0)
-            json["sampling"]["until"] = cell.sampling.until;
-        if (cell.sampling.dropped > 0)
-            json["sampling"]["dropped"] = cell.sampling.dropped;
-        put_if(json["sampling"], "race", std::string(race_name(cell.sampling.race)));
+        put_if(json["sampling"], "until", cell.sampling.until);
+        put_if(json["sampling"], "dropped", cell.sampling.dropped);
+        put_if(json["sampling"], "race", race_name(cell.sampling.race));
     }
     json["samples"] = cell.samples;
     Json& counters = json["counters"] = Json::object();
@@ -153,10 +140,8 @@ std::string cell_text(const Cell& cell)
         if (std::isfinite(value))
             counters[key] = is_whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
     }
-    if (!cell.left_out.empty())
-        json["left_out"] = cell.left_out;
-    if (!cell.leaves_by_depth.empty())
-        json["leaves_by_depth"] = cell.leaves_by_depth;
+    put_if(json, "left_out", cell.left_out);
+    put_if(json, "leaves_by_depth", cell.leaves_by_depth);
     json["check"] = json_of(cell.check);
     if (cell.within_distance)
         json["within_distance"] = *cell.within_distance;
@@ -170,8 +155,7 @@ std::string cell_text(const Cell& cell)
 std::string cell_text(const StressCell& cell)
 {
     Json json = {{"family", cell.family}, {"scene", cell.scene}};
-    if (cell.triangles > 0)
-        json["triangles"] = cell.triangles;
+    put_if(json, "triangles", cell.triangles);
     json["system"] = cell.system;
     json["kind"] = stress_kind_names[static_cast<std::size_t>(cell.kind)];
     put_if(json, "library", cell.library);

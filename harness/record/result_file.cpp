@@ -33,6 +33,12 @@ std::string counted(std::size_t cells)
     return std::to_string(cells) + (cells == 1 ? " cell" : " cells");
 }
 
+void add_texts(std::span<const Json> cells, std::vector<CellText>& texts)
+{
+    for (const Json& cell : cells)
+        texts.push_back(text_of(cell, cell.at("run")));
+}
+
 }  // namespace
 
 OutputRules result_rules(bool force, std::vector<std::string> inputs, bool resumes)
@@ -121,7 +127,7 @@ std::optional<double> ResultFile::take_part(const std::string& key)
         found->second.cells.clear();
         return std::nullopt;
     }
-    take_over(found->second.cells);
+    add_texts(found->second.cells, cells_);
     const double seconds = found->second.seconds;
     earlier_.parts.erase(found);
     return seconds;
@@ -145,7 +151,7 @@ bool ResultFile::pass(std::size_t count)
 {
     const std::lock_guard lock(mutex_);
     if (count > 0 && there_.size() >= count) {
-        take_over(std::span(there_).first(count));
+        add_texts(std::span(there_).first(count), cells_);
         there_.erase(there_.begin(), there_.begin() + static_cast<std::ptrdiff_t>(count));
         return true;
     }
@@ -158,7 +164,7 @@ bool ResultFile::pass(std::size_t count)
 void ResultFile::take_rest()
 {
     const std::lock_guard lock(mutex_);
-    take_over(there_);
+    add_texts(there_, cells_);
     there_.clear();
 }
 
@@ -167,12 +173,6 @@ void ResultFile::end_part(double seconds)
     const std::lock_guard lock(mutex_);
     journal_.append(part_, "ended", Json(std::round(seconds * 10) / 10).dump());
     part_.clear();
-}
-
-void ResultFile::take_over(std::span<const Json> cells)
-{
-    for (const Json& cell : cells)
-        cells_.push_back(text_of(cell, cell.at("run")));
 }
 
 int ResultFile::next_order() const
@@ -247,8 +247,7 @@ void ResultFile::finish(const EndOfRun& end)
         return;  // all of it was there
     if (has_begun_) {
         run_["compile_ns"] = end.compile_ns;
-        if (!end.turns_with.empty())
-            run_["turns_with"] = end.turns_with;
+        put_if(run_, "turns_with", end.turns_with);
         if (end.other_processes)
             put_other_processes(run_["conditions"], *end.other_processes);
     }
@@ -261,12 +260,10 @@ void ResultFile::finish(const EndOfRun& end)
 std::vector<CellText> ResultFile::all_cells() const
 {
     std::vector<CellText> all = cells_;
-    for (const Json& cell : there_)
-        all.push_back(text_of(cell, cell.at("run")));
+    add_texts(there_, all);
     for (const std::string& key : earlier_.order)
         if (const auto part = earlier_.parts.find(key); part != earlier_.parts.end())
-            for (const Json& cell : part->second.cells)
-                all.push_back(text_of(cell, cell.at("run")));
+            add_texts(part->second.cells, all);
     return all;
 }
 

@@ -4,7 +4,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -117,7 +116,6 @@ public:
 
 private:
     void append(const CellText& cell);
-    void take_over(std::span<const Json> cells);
     std::vector<CellText> all_cells() const;
     Json unfinished_parts() const;
     bool is_worth_writing() const;
