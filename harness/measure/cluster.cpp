@@ -2,14 +2,12 @@
 #include "harness/measure/cluster.h"
 
 #include <algorithm>
-#include <array>
 
 #include "cluster/lone_rank.h"
 #include "cluster/share.h"
 #include "device/device_choice.h"
 #include "geometry/error.h"
 #include "harness/base/test_hooks.h"
-#include "harness/measure/cluster_frames.h"
 #include "harness/measure/cluster_part.h"
 #include "harness/measure/cluster_verdict.h"
 
@@ -17,11 +15,6 @@ namespace bvhbench {
 namespace {
 
 constexpr std::size_t judged_triangles = 10'000;  ///< triangles that are compared with all others
-
-PairFacts contacts_of_all(const ClusterPart& part, Ranks& ranks)
-{
-    return facts_of_all(facts_of(part.frame.contacts()), ranks);
-}
 
 /// Returns whether one device, by what the ranks' took, can hold the whole scene.
 bool fits_one_device(const ClusterPart& part, const PairFacts& pairs, std::uint64_t triangles,
@@ -67,7 +60,6 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
 
 ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task)
 {
-    const bool is_first = ranks.rank() == first_rank;
     ClusterFound found;
     ClusterResult& result = found.result;
     result.task = task;
@@ -90,17 +82,16 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
         if (task.wants_pairs || result.pairs.count <= task.most_gathered)
             evidence.list.emplace(pairs_at_first(ranks, part.frame.pairs()));
         if (has_narrow(task))
-            result.contacts = evidence.contacts = contacts_of_all(part, ranks);
+            result.contacts = evidence.contacts =
+                facts_of_all(facts_of(part.frame.contacts()), ranks);
         if (has_narrow(task) &&
             (task.wants_contacts || evidence.contacts->count <= task.most_gathered))
             evidence.contact_list.emplace(pairs_at_first(ranks, part.frame.contacts()));
-        std::array<std::uint64_t, 1> triangles{part.own.triangles};
-        ranks.sum(triangles);
+        const std::uint64_t triangles = sum_of_all(part.own.triangles, ranks);
         if (task.check == ClusterCheck::automatic)
-            by_one_device =
-                fits_one_device(part, result.pairs, triangles[0], session.device(), ranks);
+            by_one_device = fits_one_device(part, result.pairs, triangles, session.device(), ranks);
         if (!by_one_device) {
-            const TriangleSample sample(triangles[0], judged_triangles);
+            const TriangleSample sample(triangles, judged_triangles);
             evidence.of_sample = pairs_at_first(ranks, part.frame.pairs_of(sample));
             evidence.right_of_sample = pairs_at_first(ranks, part.frame.right_pairs_of(sample));
         }
@@ -117,9 +108,9 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
         part.run();
         evidence.other_partition = facts_of_all(part.frame.facts(), ranks);
         if (has_narrow(task))
-            evidence.other_contacts = contacts_of_all(part, ranks);
+            evidence.other_contacts = facts_of_all(facts_of(part.frame.contacts()), ranks);
     }
-    if (!is_first)
+    if (ranks.rank() != first_rank)
         return found;
     stop_at("verdict", first_rank);
     if (by_one_device || task.wants_pairs || task.wants_contacts) {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/cluster_frames.h"
+#include "harness/measure/cluster_part.h"
 
-#include <array>
 #include <numeric>
 
 #include "cluster/point_routes.h"
 #include "cluster/rebalance.h"
 #include "geometry/error.h"
-#include "harness/measure/cluster_part.h"
 #include "harness/measure/cluster_verdict.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/frames.h"
@@ -25,9 +23,7 @@ void rebalance(ClusterPart& part, ClusterFrame& result, Ranks& ranks)
         next = cut(part.frame.share(), PartitionBy::rcb, work, ranks);
         ranks.wait_for_all();
     });
-    std::array<std::uint64_t, 1> moved{next.left};
-    ranks.sum(moved);
-    result.moved_triangles = moved[0];
+    result.moved_triangles = sum_of_all(next.left, ranks);
     part.take(std::move(next.share));
 }
 
@@ -55,16 +51,13 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask&
 {
     const bool is_first = ranks.rank() == first_rank;
     ClusterResult& result = found.result;
-    std::array<std::uint64_t, 1> there{0};
-    if (is_first) {
+    if (is_first)
         found.scene = whole_scene(task, session);
-        there[0] = found.scene.frames.size();
-    }
-    ranks.sum(there);
-    const std::size_t end = task.frames.end == 0 ? there[0] : task.frames.end;
-    if (end > there[0] || task.frames.first >= end)
+    const std::uint64_t there = sum_of_all(found.scene.frames.size(), ranks);
+    const std::size_t end = task.frames.end == 0 ? there : task.frames.end;
+    if (end > there || task.frames.first >= end)
         throw BadUsage("--frames asks for " + frame_range_text(task.frames) + ", and " +
-                       task.scene + " has " + std::to_string(there[0]) + " frames");
+                       task.scene + " has " + std::to_string(there) + " frames");
     std::vector<ClusterEvidence> evidence;
     {  // frees the device for the verdict
         ClusterPart part(ranks, session, task);

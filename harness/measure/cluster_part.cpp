@@ -27,9 +27,7 @@ Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, Scene
 {
     facts.name = scene_name(task.scene);
     std::optional<ScenePart> part = load_part(task.scene, ranks.rank(), ranks.count());
-    std::array<std::uint64_t, 1> ranks_with_parts{part ? 1u : 0u};
-    ranks.sum(ranks_with_parts);
-    if (ranks_with_parts[0] == ranks.count()) {
+    if (sum_of_all(part ? 1 : 0, ranks) == ranks.count()) {
         facts.triangles = static_cast<std::int64_t>(part->triangles);
         facts.vertices = static_cast<std::int64_t>(part->mesh.mesh_points);
         return share_of(std::move(part->mesh), part->run.first);

@@ -37,6 +37,13 @@ std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own);
 /// Returns the facts of the pairs of all ranks together.
 PairFacts facts_of_all(const PairFacts& own, Ranks& ranks);
 
+/// Returns the sum of a number that each rank has.
+inline std::uint64_t sum_of_all(std::uint64_t own, Ranks& ranks)
+{
+    ranks.sum({&own, 1});
+    return own;
+}
+
 inline bool has_narrow(const ClusterTask& task) { return task.pipeline.collider.narrow != "none"; }
 
 /// Calls `work` under the limits of a rank.
@@ -104,5 +111,11 @@ public:
     DistributedFrame frame;
     ClusterRank own;  ///< without names
 };
+
+/// Runs the frames `task.frames` of a scene that moves, each once: triangles stay on their ranks, points move, and the scene is cut
+/// anew after a frame in which a rank had too much work. Each frame's answer is compared with that of one device. Fills `found`,
+/// at the first rank only. Throws as run_cluster does, and BadUsage for frames that the scene lacks.
+void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask& task,
+                        ClusterFound& found);
 
 }  // namespace bvhbench
