@@ -14,13 +14,6 @@ using enum Violation::Of;
 
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// False also if a side of `outer` is not a number.
-bool contains(const Aabb& outer, const Aabb& inner)
-{
-    return outer.min_x <= inner.min_x && outer.min_y <= inner.min_y && outer.min_z <= inner.min_z &&
-           outer.max_x >= inner.max_x && outer.max_y >= inner.max_y && outer.max_z >= inner.max_z;
-}
-
 std::string node_text(std::size_t index) { return "node " + std::to_string(index); }
 
 bool is_node(const HostTree& tree, int index)

@@ -22,9 +22,7 @@ std::optional<double> parsed_distance(const std::string& word)
 
 double diagonal_of(const Scene& scene)
 {
-    Aabb box = empty_box();
-    for (const Face& face : scene.faces)
-        box = merged(box, face_box(scene.frames.front(), face));
+    const Aabb box = box_around(scene.frames.front(), scene.faces);
     const auto side = [](float low, float high) { return double{high} - double{low}; };
     return std::hypot(side(box.min_x, box.max_x), side(box.min_y, box.max_y),
                       side(box.min_z, box.max_z));

@@ -41,13 +41,7 @@ public:
         return std::span(scene_.faces).subspan(at.first_face, at.face_count);
     }
 
-    Aabb box(std::size_t object) const
-    {
-        Aabb box = empty_box();
-        for (const Face& face : faces(object))
-            box = merged(box, triangle_box(points_[face.a], points_[face.b], points_[face.c]));
-        return box;
-    }
+    Aabb box(std::size_t object) const { return box_around(points_, faces(object)); }
 
     bool is_closed(std::size_t object) const
     {
@@ -96,12 +90,6 @@ private:
     const std::vector<Point>& points_;
 };
 
-bool encloses(const Aabb& outer, const Aabb& inner)
-{
-    return outer.min_x <= inner.min_x && outer.min_y <= inner.min_y && outer.min_z <= inner.min_z &&
-           outer.max_x >= inner.max_x && outer.max_y >= inner.max_y && outer.max_z >= inner.max_z;
-}
-
 /// Returns the pairs of objects that have a contact, or a vertex in common.
 std::set<std::pair<std::size_t, std::size_t>> touching_objects(const Scene& scene,
                                                                std::span<const Pair> contacts)
@@ -143,7 +131,7 @@ Containment containment(const Scene& scene, std::size_t frame, std::span<const P
             continue;
         }
         for (std::size_t inner = 0; inner < boxes.size(); ++inner)
-            if (inner != outer && encloses(boxes[outer], boxes[inner]) &&
+            if (inner != outer && contains(boxes[outer], boxes[inner]) &&
                 !touching.contains(std::minmax(inner, outer)) && now.is_inside(inner, outer))
                 containment.found.push_back({inner, outer});
     }

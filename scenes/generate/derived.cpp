@@ -13,9 +13,7 @@ namespace {
 
 double box_diagonal(const std::vector<Point>& points, const std::vector<Face>& faces)
 {
-    Aabb box = empty_box();
-    for (const Face& face : faces)
-        box = merged(box, face_box(points, face));
+    const Aabb box = box_around(points, faces);
     return length(difference({box.max_x, box.max_y, box.max_z}, {box.min_x, box.min_y, box.min_z}));
 }
 
