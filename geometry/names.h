@@ -26,7 +26,7 @@ std::string there_are(std::string_view name, std::span<const std::string_view> k
 
 /// Returns the names of the entries, in their order.
 template <class Entries>
-std::vector<std::string_view> names_of(const Entries& entries)
+std::vector<std::string_view> names_of(Entries&& entries)
 {
     std::vector<std::string_view> names;
     for (const auto& entry : entries)

@@ -2,6 +2,7 @@
 #include "harness/choice/catalog.h"
 
 #include <list>
+#include <ranges>
 #include <vector>
 
 #include "baselines/baselines.h"
@@ -198,14 +199,11 @@ void check_filter(const ColliderChoice& choice, const ColliderEntry& entry)
 {
     if (choice.filter.is_empty())
         return;
-    std::vector<std::string_view> others;
-    for (const ColliderEntry& other : collider_catalog())
-        if (other.filters)
-            others.push_back(other.name);
     if (!entry.filters)
         throw BadUsage(
             "the collider " + choice.name +
-            " finds pairs of all objects; these leave out what 'exclude' names: " + joined(others));
+            " finds pairs of all objects; these leave out what 'exclude' names: " +
+            joined(names_of(collider_catalog() | std::views::filter(&ColliderEntry::filters))));
     if (entry.needs_tree && (choice.rules_off & skip_apart) != 0)
         throw BadUsage(
             "'exclude' is applied where the rule 'apart' is, which therefore cannot be switched "
@@ -291,13 +289,11 @@ void check_boxes(const BuilderChoice& choice)
 {
     if (find_box_format(choice.boxes).number == BOX_F32)
         return;
-    std::vector<std::string_view> others;
-    for (const BuilderEntry& entry : builder_catalog())
-        if (entry.takes_formats)
-            others.push_back(entry.name);
     if (!find_builder(choice.name).takes_formats)
-        throw BadUsage(choice.name + " keeps its boxes in its own way, not as " + choice.boxes +
-                       "; these do as they are told: " + joined(others));
+        throw BadUsage(
+            choice.name + " keeps its boxes in its own way, not as " + choice.boxes +
+            "; these do as they are told: " +
+            joined(names_of(builder_catalog() | std::views::filter(&BuilderEntry::takes_formats))));
     if (!choice.sorted_leaves)
         throw BadUsage("boxes of " + choice.boxes +
                        " are made where leaves are lined up, so leaves must be sorted, not left in "

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <ranges>
 #include <span>
 #include <sstream>
 
@@ -39,6 +40,22 @@ int printed(int code)
     return code;
 }
 
+/// Returns the position in `argv` of the first word that is neither an option nor an option's value; `argc` without one.
+int command_place(int argc, const char* const* argv)
+{
+    CommonOptions ignored;
+    CLI::App app;
+    add_common(app, ignored);
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (!word.starts_with('-'))
+            return i;
+        const CLI::Option* option = app.get_option_no_throw(word);
+        i += option != nullptr && option->get_items_expected_max() > 0 ? 1 : 0;
+    }
+    return argc;
+}
+
 /// The parsed command line.
 class Parsed {
 public:
@@ -60,7 +77,7 @@ public:
         } catch (const CLI::ParseError& error) {
             std::ostringstream out;
             if (app_.exit(error, out, out) != 0) {
-                check_names({argv + 1, argv + argc});
+                check_names(argc, argv);
                 throw BadUsage(std::string(error.what()) +
                                "; `bvhbench --help` lists what there is");
             }
@@ -94,32 +111,24 @@ public:
     }
 
 private:
-    /// Throws BadUsage if the first word that is no option is no command, or if a word is an option that the command lacks. The
-    /// parser would complain of what is missing first.
-    void check_names(std::span<const char* const> words) const
+    /// Throws BadUsage if the first word that is no option is no command, or if a word behind it is an option that the command lacks.
+    /// The parser would complain of what is missing first.
+    void check_names(int argc, const char* const* argv) const
     {
-        const CLI::App* command = nullptr;
-        for (std::size_t i = 0; i < words.size(); ++i) {
-            const std::string_view word = words[i];
+        const int place = command_place(argc, argv);
+        if (place == argc)
+            return;
+        if (find_name(commands(), argv[place]) == nullptr)
+            throw BadUsage("no command is called '" + std::string(argv[place]) + '\'' +
+                           there_are(argv[place], listed_commands()));
+        const CLI::App& command = *app_.get_subcommand(argv[place]);
+        for (const std::string_view word : std::span(argv + place, argv + argc)) {
             const std::string name(word.substr(0, word.find('=')));
-            if (!word.starts_with("--")) {
-                if (command == nullptr && !word.starts_with('-')) {
-                    if (find_name(commands(), name) == nullptr)
-                        throw BadUsage("no command is called '" + name + '\'' +
-                                       there_are(name, listed_commands()));
-                    command = app_.get_subcommand(name);
-                }
-                continue;
-            }
-            const CLI::Option* option = app_.get_option_no_throw(name);
-            if (option == nullptr && command != nullptr)
-                option = command->get_option_no_throw(name);
-            if (option == nullptr && command != nullptr)
-                refuse_option(name, *command);
-            i += option != nullptr && option->get_items_expected_max() > 0 && name == word ? 1 : 0;
+            if (name.starts_with("--") && app_.get_option_no_throw(name) == nullptr &&
+                command.get_option_no_throw(name) == nullptr)
+                refuse_option(name, command);
         }
     }
-
     [[noreturn]] void refuse_option(const std::string& name, const CLI::App& command) const
     {
         std::vector<std::string> known;
@@ -136,11 +145,8 @@ private:
 
     static std::vector<std::string_view> listed_commands()
     {
-        std::vector<std::string_view> listed;
-        for (const CommandEntry& entry : commands())
-            if (!entry.group.empty())
-                listed.push_back(entry.name);
-        return listed;
+        const auto is_listed = [](const CommandEntry& entry) { return !entry.group.empty(); };
+        return names_of(commands() | std::views::filter(is_listed));
     }
 
     CLI::App app_{"Compare builders of bounding volume hierarchies for collision detection.",
@@ -149,22 +155,6 @@ private:
     std::map<const CLI::App*, std::unique_ptr<Command>> made_;
     std::string to_print_;
 };
-
-/// Returns the position in `argv` of the first word that is neither an option nor an option's value; `argc` without one.
-int command_place(int argc, const char* const* argv)
-{
-    CommonOptions ignored;
-    CLI::App app;
-    add_common(app, ignored);
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (!word.starts_with('-'))
-            return i;
-        const CLI::Option* option = app.get_option_no_throw(word);
-        i += option != nullptr && option->get_items_expected_max() > 0 ? 1 : 0;
-    }
-    return argc;
-}
 
 }  // namespace
 
