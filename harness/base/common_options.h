@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,5 +29,12 @@ struct CommonOptions {
     bool verbose = false;
     std::vector<std::string> given = {};  ///< those that were given, as words for ranks
 };
+
+/// Returns the text of an environment variable; empty if it is not set.
+inline std::string environment(const char* variable)
+{
+    const char* const text = std::getenv(variable);
+    return text == nullptr ? "" : text;
+}
 
 }  // namespace bvhbench

@@ -6,11 +6,11 @@
 
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <limits>
 #include <sstream>
 
 #include "geometry/error.h"
+#include "harness/base/common_options.h"
 
 namespace bvhbench {
 namespace {
@@ -21,8 +21,7 @@ constexpr const char* copy_variable = "BVHBENCH_COPY_BYTES";
 
 double factor_of(std::string_view name)
 {
-    const char* slow = std::getenv(variable);
-    std::istringstream entries(slow == nullptr ? "" : slow);
+    std::istringstream entries(environment(variable));
     double product = 1;
     for (std::string entry, of; std::getline(entries, entry, ',');) {
         double factor = 0;
@@ -38,8 +37,8 @@ double factor_of(std::string_view name)
 /// Returns true if BVHBENCH_STOP names this stage and rank.
 bool stops_at(std::string_view stage, unsigned rank)
 {
-    const char* stop = std::getenv(stop_variable);
-    if (stop == nullptr || *stop == '\0')
+    const std::string stop = environment(stop_variable);
+    if (stop.empty())
         return false;
     std::string name;
     unsigned number = 0;
@@ -58,7 +57,7 @@ std::map<std::string, std::string> test_hooks()
     most_copied();
     std::map<std::string, std::string> set;
     for (const char* name : {variable, stop_variable})
-        if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
+        if (const std::string value = environment(name); !value.empty())
             set[name] = value;
     return set;
 }
@@ -73,8 +72,8 @@ void slow_down(std::span<StageTime> stages, std::string_view name)
 
 std::size_t most_copied()
 {
-    const char* most = std::getenv(copy_variable);
-    if (most == nullptr || *most == '\0')
+    const std::string most = environment(copy_variable);
+    if (most.empty())
         return std::numeric_limits<std::size_t>::max();
     std::size_t bytes = 0;
     if (!RE2::FullMatch(most, "(\\d+)", &bytes) || bytes < 16)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/outside.h"
 
-#include <cstdlib>
 #include <sstream>
 
 #include "geometry/error.h"
@@ -19,12 +18,10 @@ constexpr double share_of_limit = 0.95;
 std::vector<std::string> plugins_of(const CommonOptions& common)
 {
     std::vector<std::string> files = common.plugins;
-    if (const char* variable = std::getenv("BVHBENCH_PLUGINS")) {
-        std::istringstream words(variable);
-        for (std::string file; std::getline(words, file, ':');)
-            if (!file.empty())
-                files.push_back(file);
-    }
+    std::istringstream words(environment("BVHBENCH_PLUGINS"));
+    for (std::string file; std::getline(words, file, ':');)
+        if (!file.empty())
+            files.push_back(file);
     return files;
 }
 

@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "geometry/error.h"
+#include "harness/base/common_options.h"
 #include "process/watchdog.h"
 
 namespace bvhbench {
@@ -24,12 +25,6 @@ constexpr std::uintmax_t needed_bytes = std::uintmax_t{16} << 20;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;
 
 constexpr const char* lock_name = "bvhbench.lock";
-
-fs::path variable(const char* name)
-{
-    const char* value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
 
 /// Removes everything that PoCL has stored in the folder if the files take more than most_bytes.
 void empty_if_large(const fs::path& folder)
@@ -68,17 +63,18 @@ std::string folder_problem(const fs::path& folder)
 
 fs::path cache_folder(const char* of)
 {
-    if (const fs::path base = variable("XDG_CACHE_HOME"); base.is_absolute())
+    if (const fs::path base = environment("XDG_CACHE_HOME"); base.is_absolute())
         return base / "bvhbench" / of;
     std::error_code error;
-    if (const fs::path home = variable("HOME"); home.is_absolute() && fs::is_directory(home, error))
+    if (const fs::path home = environment("HOME");
+        home.is_absolute() && fs::is_directory(home, error))
         return home / ".cache" / "bvhbench" / of;
     return {};
 }
 
 PoclCache::PoclCache()
 {
-    const fs::path named = variable("POCL_CACHE_DIR"), own = cache_folder("pocl");
+    const fs::path named = environment("POCL_CACHE_DIR"), own = cache_folder("pocl");
     const fs::path folder = named.empty() ? own : named;
     std::string problem = folder.empty() ? "there is no home folder" : folder_problem(folder);
     if (!problem.empty())

@@ -3,7 +3,6 @@
 
 #include <re2/re2.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
@@ -19,8 +18,7 @@ namespace bvhbench {
 SceneLibrary scene_library(const CommonOptions& common)
 {
     SceneLibrary library;
-    const char* variable = std::getenv("BVHBENCH_DATA");
-    library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
+    library.data = common.data.empty() ? environment("BVHBENCH_DATA") : common.data;
     library.doubles = doubles_called(common.doubles);
     library.weld = common.weld;
     library.tell = [](const std::string& line) { std::cerr << line << '\n'; };
