@@ -24,6 +24,8 @@ struct CellChoice {
     BuilderChoice builder = {};
     ColliderChoice collider = {};
     SceneChoice scene = {};
+
+    bool operator==(const CellChoice&) const = default;
 };
 
 /// One option of a cell.

@@ -42,6 +42,8 @@ struct SceneChoice {
     bool swept = false;        ///< boxes enclose the motion from each frame to the next
     std::string exclude = {};  ///< objects that are not tested with each other (filter_words.h)
     FrameRange frames = {};    ///< if swept: the frames in which motions begin
+
+    bool operator==(const SceneChoice&) const = default;
 };
 
 /// A scene, the pipelines that collide it, and how often each is sampled.

@@ -100,12 +100,10 @@ private:
             wrong = contract_violation(session_, builder, input, oracle, &refused);
             if (refused)
                 refusal = find_builder(builder.name).may_refuse;
-        } catch (const BadUsage& error) {
-            refusal = error.what();
-        } catch (const Unavailable& error) {
-            refusal = error.what();
         } catch (const std::exception& error) {
-            wrong = sentence_of(error);
+            const bool refuses = dynamic_cast<const BadUsage*>(&error) != nullptr ||
+                                 dynamic_cast<const Unavailable*>(&error) != nullptr;
+            (refuses ? refusal : wrong) = sentence_of(error);
         }
         if (!wrong.empty() || !refusal.empty())
             session_.renew_queue();

@@ -26,7 +26,9 @@ public:
         names_.builders = {"oibvh-multi"};
         choice_.collider.trees = TreeOver::automatic;
         names_.add_builders(app);
-        names_.add_colliders(app);
+        app.add_option("--collider", names_.colliders, "names of `list colliders`")
+            ->delimiter(',')
+            ->required();
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
         names_.add_orders(app);
         add_choices(app, choice_, [](const Choice& option) {
@@ -124,18 +126,18 @@ private:
         const Containment inside = containment(
             *found.scene, found.scene->frames.size() > 1 ? frame : 0, found.contacts.pairs());
         const std::string where = cells.front().scene.name + ", frame " + std::to_string(frame);
-        for (Cell& cell : cells)
-            if (cell.status == Cell::Status::measured)
-                cell.counters["contained_count"] = static_cast<double>(inside.found.size());
+        std::vector<std::pair<std::string, std::string>> names;
         for (const auto& [object, of] : inside.found) {
-            const std::string& inner = found.scene->objects[object].name;
-            const std::string& outer = found.scene->objects[of].name;
-            for (Cell& cell : cells)
-                if (cell.status == Cell::Status::measured)
-                    cell.contained.emplace_back(inner, outer);
+            const auto& [inner, outer] = names.emplace_back(found.scene->objects[object].name,
+                                                            found.scene->objects[of].name);
             contained_.push_back(where + ": object '" + inner + "' lies wholly inside '" + outer +
                                  "', without a contact");
         }
+        for (Cell& cell : cells)
+            if (cell.status == Cell::Status::measured) {
+                cell.counters["contained_count"] = static_cast<double>(names.size());
+                cell.contained = names;
+            }
         if (inside.found.empty())
             contained_.push_back(where + ": no object lies wholly inside a closed one");
         if (inside.open_objects > 0)

@@ -60,14 +60,15 @@ public:
                            " scenes");
         const CommonOptions& common = invocation.common;
         ResultFile results(
-            Output(out(plan), "--out", result_rules(common.force, inputs(plan, common), resumes())),
+            Output(out(plan), "--out",
+                   result_rules(common.force, inputs(plan, common), resuming_.is_asked)),
             common.force, resuming_, watchdog::run_id());
         watchdog::let_signals_through();
         Session session(common);
         const std::string settings = this->settings(session, common);
         const std::vector<PlannedScene> scenes = scenes_with(settings);
         const std::set<std::string> keys = keys_of(planned_scenes(plan, filter, {}, settings));
-        if (resumes())
+        if (resuming_.is_asked)
             results.check_earlier(keys, run_facts(session.device(), {}));
         Run run(session, results, costs_, common);
         const auto begin = [&] {
@@ -89,11 +90,9 @@ public:
     }
 
 private:
-    bool resumes() const { return resuming_.is_asked; }
-
     RunPlan plan() const
     {
-        if (!resumes() && (resuming_.other_commits || resuming_.retries_failed))
+        if (!resuming_.is_asked && (resuming_.other_commits || resuming_.retries_failed))
             throw BadUsage("--continue-other-commit and --retry-failed need --resume");
         RunPlan plan = find_plan(name_, quick_);
         if (plan.has_parts && !turns_.empty())
@@ -136,13 +135,8 @@ private:
     std::vector<std::string> inputs(const RunPlan& plan, const CommonOptions& common) const
     {
         std::vector<std::string> scenes;
-        for (const Experiment& experiment : plan.parts) {
-            scenes.insert(scenes.end(), experiment.scenes.begin(), experiment.scenes.end());
-            for (const CollideTask& task : experiment.collisions)
-                scenes.push_back(task.scene);
-            for (const ClusterTask& task : experiment.clusters)
-                scenes.push_back(task.scene);
-        }
+        for (const PlannedScene& planned : planned_scenes(plan, {}, {}, ""))
+            scenes.push_back(planned.name);
         std::vector<std::string> inputs = files_of(scenes, scene_library(common));
         if (name_.ends_with(".json"))
             inputs.push_back(name_);

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "geometry/names.h"
 #include "harness/base/table.h"
 #include "harness/base/terminal.h"
 #include "harness/commands/command.h"
@@ -25,12 +26,9 @@ std::string short_number(double value)
     return text.data();
 }
 
-std::string joined_by_comma(const std::vector<std::string>& texts)
+std::string listed(const std::vector<std::string>& texts)
 {
-    std::string all;
-    for (const std::string& text : texts)
-        all += (all.empty() ? "" : ", ") + text;
-    return all;
+    return joined(std::vector<std::string_view>(texts.begin(), texts.end()));
 }
 
 std::string objects_text(const Scene& scene)
@@ -41,7 +39,7 @@ std::string objects_text(const Scene& scene)
             names.push_back(object.name + ' ' + std::to_string(object.face_count));
     if (names.size() < scene.objects.size())
         names.emplace_back("...");
-    return std::to_string(scene.objects.size()) + ": " + joined_by_comma(names);
+    return std::to_string(scene.objects.size()) + ": " + listed(names);
 }
 
 /// Returns the facts of a scene, one a line. Facts that are zero and usually are have no line.
@@ -84,7 +82,7 @@ Table facts_table(const Scene& scene)
     table.row({"coordinates", rounding_text(scene.rounding)});
     table.row({"pairs of boxes, about", short_number(facts.expected_pairs)});
     if (!reading.ignored.empty())
-        table.row({"not read", joined_by_comma(reading.ignored)});
+        table.row({"not read", listed(reading.ignored)});
     if (const std::string line = surprises(scene); !line.empty())
         table.row({"surprises", line});
     return table;

@@ -160,25 +160,9 @@ void SeveralNames::add_orders(CLI::App& app)
         ->default_str(orders.front());
 }
 
-void SeveralNames::add_colliders(CLI::App& app)
-{
-    app.add_option("--collider", colliders, "names of `list colliders`")
-        ->delimiter(',')
-        ->required();
-}
-
 std::vector<CellChoice> SeveralNames::combined_with(const CellChoice& choice) const
 {
     std::vector<CellChoice> all;
-    const auto add = [&all](const CellChoice& one) {
-        check_choice(one);
-        check_powers(one);
-        const auto is_same = [&](const CellChoice& other) {
-            return other.builder == one.builder && other.collider == one.collider;
-        };
-        if (std::ranges::none_of(all, is_same))
-            all.push_back(one);
-    };
     for (const std::string& collider : colliders.empty() ? std::vector<std::string>{""} : colliders)
         for (const std::string& builder : builders)
             for (const std::string& order : orders) {
@@ -188,7 +172,10 @@ std::vector<CellChoice> SeveralNames::combined_with(const CellChoice& choice) co
                 one.builder.name = needs_tree ? builder : builders.front();
                 one.builder.order = needs_tree ? order : orders.front();
                 find_order(order);
-                add(one);
+                check_choice(one);
+                check_powers(one);
+                if (std::ranges::count(all, one) == 0)
+                    all.push_back(one);
             }
     return all;
 }

@@ -22,7 +22,6 @@ struct SeveralNames {
 
     void add_builders(CLI::App& app);
     void add_orders(CLI::App& app);
-    void add_colliders(CLI::App& app);
 
     /// Returns `choice` with each combination of the names. A collider that queries no tree is combined once. Throws BadUsage for
     /// a wrong combination or an unknown name.
