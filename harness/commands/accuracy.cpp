@@ -45,7 +45,7 @@ public:
             folder / (axis_.empty() ? "accuracy.json" : "accuracy-" + axis_ + ".json");
         const CommonOptions& common = invocation.common;
         Session session(common);
-        make_folder(folder);
+        std::filesystem::create_directories(folder);
         const OutputRules rules =
             result_rules(common.force, files_of(task_.scenes, session.scenes()));
         check_pictures(folder, "--out", rules);

@@ -238,8 +238,7 @@ void Output::Writer::finish()
         }
         temporary_.clear();
     }
-    const int file = std::exchange(file_, -1);
-    if (close(file) != 0)
+    if (close(std::exchange(file_, -1)) != 0)
         fail(output_.path_);
 }
 
@@ -254,15 +253,6 @@ void check_pictures(const fs::path& folder, const std::string& option, OutputRul
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
         if (const fs::path end = entry.path().extension(); end == ".png" || end == ".svg")
             Output(entry.path(), option, rules);
-}
-
-void make_folder(const fs::path& folder)
-{
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-        throw Unavailable("the folder " + folder.string() + " cannot be made: " +
-                          (error ? error.message() : "a file is in its place"));
 }
 
 }  // namespace bvhbench

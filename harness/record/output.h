@@ -87,7 +87,4 @@ private:
 void check_pictures(const std::filesystem::path& folder, const std::string& option,
                     OutputRules rules);
 
-/// Creates the folder and its parents. Throws Unavailable with the system's reason.
-void make_folder(const std::filesystem::path& folder);
-
 }  // namespace bvhbench
