@@ -92,9 +92,8 @@ double bytes_held(const Cell& cell)
 
 void Contest::keep_least(const std::string& key, double ns)
 {
-    const auto [at, is_new] = least_.try_emplace(key, ns);
-    if (!is_new)
-        at->second = std::min(at->second, ns);
+    double& least = least_.try_emplace(key, ns).first->second;
+    least = std::min(least, ns);
 }
 
 double Contest::least_of(const std::string& key) const

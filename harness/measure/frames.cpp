@@ -48,13 +48,12 @@ void Frames::load(const Experiment& experiment, const std::string& name,
     facts_ = facts_of(scene_, name, frame_);
 }
 
-void Frames::upload(Session& session, bool by_objects)
+void Frames::upload(Session& session)
 {
-    if (!by_objects)
-        scene_ = in_file_order(std::move(scene_));
-    now_ = upload_frame(session, scene_, frame_, by_objects);
+    scene_ = in_file_order(std::move(scene_));
+    now_ = upload_frame(session, scene_, frame_, false);
     if (frame_ > 0)
-        before_ = upload_frame(session, scene_, frame_ - 1, by_objects);
+        before_ = upload_frame(session, scene_, frame_ - 1, false);
 }
 
 void Frames::upload_points(Session& session)

@@ -27,9 +27,8 @@ public:
 
     const SceneFacts& facts() const { return facts_; }  ///< of the scene as it was read
 
-    /// Uploads the frames as one object or, with `by_objects`, as the scene's objects. Blocks until done. The references that
-    /// now() and before() return stay valid from now on.
-    void upload(Session& session, bool by_objects = false);
+    /// Uploads the frames as one object. Blocks until done. The references that now() and before() return stay valid from now on.
+    void upload(Session& session);
 
     /// Copies the points of that frame to the device once more. Waits.
     void upload_points(Session& session);

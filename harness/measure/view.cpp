@@ -33,8 +33,7 @@ void append_levels(std::string& text, const HostTree& tree)
                 if (child != HostTree::none)
                     next.push_back(child);
         }
-        text += FloatJson(sides).dump();
-        text += '}';
+        text += FloatJson(sides).dump() + '}';
         now.swap(next);
     }
 }
@@ -82,8 +81,7 @@ std::string view_text(Session& session, const std::string& scene_name, std::size
     const Json run = run_facts(session.device(), std::move(command));
     const std::vector<Point>& points = scene.frames[number];
     const Input input = upload(session.device(), session.queue(), points, scene.faces);
-    std::vector<PipelineState> all;
-    all.push_back({pipeline});
+    PipelineState state{pipeline};
     Contest contest;
     const FrameOfPipelines frame{.input = input,
                                  .contest = contest,
@@ -92,10 +90,10 @@ std::string view_text(Session& session, const std::string& scene_name, std::size
                                  .wants_lists = true};
     int order = 0;
     Found found;
-    Cell cell = run_frame(session, task, all, frame, order, found).front();
+    Cell cell = run_frame(session, task, {&state, 1}, frame, order, found).front();
     if (cell.status != Cell::Status::measured)
         throw Unavailable(cell.reason);
-    const Tree* tree = all.front().pipeline->tree();
+    const Tree* tree = state.pipeline->tree();
     if (tree == nullptr)
         throw BadUsage("a report shows the boxes of a builder's tree, and the collider " +
                        pipeline.collider.name + " has none");

@@ -58,15 +58,12 @@ bool is_beaten(const Runner& own, const Runner& best)
 std::size_t best_of(std::span<const Runner> cells)
 {
     std::size_t best = cells.size();
-    double middle = 0;
+    std::pair<double, double> least;  // bytes and median
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].values.empty())
-            continue;
-        const double own = quantile(cells[i].values, 0.5);
-        if (best == cells.size() || cells[i].bytes < cells[best].bytes ||
-            (cells[i].bytes == cells[best].bytes && own < middle)) {
+        const std::pair own(cells[i].bytes, quantile(cells[i].values, 0.5));
+        if (!cells[i].values.empty() && (best == cells.size() || own < least)) {
             best = i;
-            middle = own;
+            least = own;
         }
     }
     return best;

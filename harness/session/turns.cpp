@@ -14,6 +14,7 @@
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
+#include "process/worker.h"
 
 namespace bvhbench {
 namespace {
@@ -61,8 +62,7 @@ void Turns::part()
 
 bool Turns::all_come()
 {
-    const std::string line = id_ + '\n';
-    if (write(descriptor_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    if (!write_all(descriptor_, id_ + '\n'))
         throw Unavailable("--turns: " + path_ + " cannot be written: " + std::strerror(errno));
     ++meetings_;
     const auto start = std::chrono::steady_clock::now();

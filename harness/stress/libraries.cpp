@@ -104,9 +104,8 @@ Findings judge_library(const PlainLibrary& library, const StressScene& scene, do
         findings[library.finds_contacts ? Invariant::contacts : Invariant::pairs] =
             judge_pairs(found, expected);
     });
-    findings[Invariant::ends] = {holds, 1};
-    if (!failure.empty())
-        findings[Invariant::ends] = {broken, 1, 1, 0, failure};
+    findings[Invariant::ends] =
+        failure.empty() ? Finding{holds, 1} : Finding{broken, 1, 1, 0, failure};
     return findings;
 }
 
