@@ -7,12 +7,11 @@ import json
 import pathlib
 import re
 import tempfile
-from typing import Any
 
 from ..files import output
+from ..files.json_files import Json
 from ..program import child, command
 
-Json = dict[str, Any]
 RANKS = (1, 2, 4, 8)
 HALO_RANKS, HALO_BOXES = (2, 8, 64), (1, 64)
 STRONG, WEAK, HALO = 67_108_864, 33_554_432, 1_152_000  # triangles: in all, a rank, in all

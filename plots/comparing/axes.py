@@ -4,10 +4,10 @@ import copy
 import pathlib
 from typing import Any
 
+from ..files.json_files import Json
 from ..files.output import WrongUsage
 from ..read.cells import Cell, parts
 
-Document = dict[str, Any]
 MOST_TOLD, MOST_VALUES = 3, 3
 FIRST = ("builder", "collider", "scene", "frame", "operation", "experiment")  # the order in which differences are told
 NAMES = {"objects_by": "objects", "between": "frames between", "swept": "swept pairs"}
@@ -63,8 +63,8 @@ def pair_of(text: str) -> tuple[str, str]:
     return names
 
 
-def between_builders(paths: tuple[pathlib.Path, pathlib.Path], first: Document, second: Document,
-                     builders: tuple[str, str]) -> tuple[Document, Document]:
+def between_builders(paths: tuple[pathlib.Path, pathlib.Path], first: Json, second: Json,
+                     builders: tuple[str, str]) -> tuple[Json, Json]:
     """Returns the cells of the first builder in the first document, and those of the second in the second, under one name, so
     that they are the same cells to a comparison. Raises WrongUsage if there are none, or if they share no scene and options."""
     made = []

@@ -1,18 +1,17 @@
 """What a baseline keeps of a run of `smoke`: each cell's verdict, its fastest time, and all machine-independent numbers."""
 import os
-from typing import Any
 
 from ..files import documents
 from ..read import counters, results
 from ..files.documents import line_of
-from ..files.json_files import Refused, value_of
+from ..files.json_files import Json, Refused, value_of
 from ..files.output import WrongUsage
 from ..read.cells import Cell, whole_ns
 
 FORMAT = "smoke-1"
 CELL = ("cell", "scene", "verdict", "counters", "hashes")  # keys of each cell
 
-Kept = dict[str, Any]  # what is kept of a cell, as in the file; "fastest_ns" only if its time is comparable
+Kept = Json  # what is kept of a cell, as in the file; "fastest_ns" only if its time is comparable
 
 
 def of_run(run: results.Run) -> list[Kept]:
@@ -53,7 +52,7 @@ def text_of(device_kind: str, kept: list[Kept]) -> str:
     return f'{{"format": "{FORMAT}", "device_kind": "{device_kind}", "cells": [{lines}\n]}}\n'
 
 
-def parsed(text: bytes, origin: str) -> dict[str, Any]:
+def parsed(text: bytes, origin: str) -> Json:
     """Parses and checks a baseline. Raises Refused, naming `origin`, if the text is not one."""
     try:
         baseline = value_of(text)

@@ -67,7 +67,7 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
     """Compares the times of cells whose pairs of processes vary alike."""
     rules = comparison.rules
     whole = [(times_of(cell.first), times_of(cell.second)) for cell in cells]
-    in_pairs = comparison.sides.in_pairs and len({len(of_side) for pair in whole for of_side in pair}) == 1
+    in_pairs = not comparison.sides.why and len({len(of_side) for pair in whole for of_side in pair}) == 1
     spread = times.spread_of([times.differences(*pair) for pair in whole]) if in_pairs else None
     common = 1.0
     if rules.other_devices:

@@ -1,21 +1,17 @@
 """Compares the cells of several ranks in two result files: what differs, and what got worse."""
-import pathlib
 from collections.abc import Iterator
-from typing import Any
 
 import numpy
 
+from ..files.json_files import Json
 from ..files.output import WrongUsage
 from ..read import rank_files
 from ..read.cells import Cell
 from ..words.tables import Table
 from . import comparison_text, sides, times
-from .facts import compare_verdicts, run_remarks
-from .refusals import Rules, machine, require_run, require_same_machine
+from .facts import Found, compare_verdicts, run_remarks
+from .refusals import Named, Rules, machine, require_run, require_same_machine
 
-Json = dict[str, Any]
-Named = tuple[pathlib.Path, Json]
-Found = tuple[list[str], list[str]]  # messages: regressions, and other changes
 COUNTS = ("halo_sent_count", "sent_bytes", "device_peak_bytes")  # of ranks
 
 

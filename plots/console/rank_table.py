@@ -1,11 +1,8 @@
 """Prints cells of several ranks."""
-from typing import Any
-
+from ..files.json_files import Json
 from ..read import rank_files, results
 from ..read.cells import grouped
 from ..words.tables import Table, counted, duration, size, whole
-
-Json = dict[str, Any]
 
 
 def text(run: results.Run) -> str:

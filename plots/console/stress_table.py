@@ -1,13 +1,12 @@
 """Prints the results of stress: verdicts by scene, invariants by system, and our cells that are wrong or refused."""
 from collections import Counter
-from typing import Any
 
-from ..files import documents, json_files
+from ..files.json_files import Json
 from ..read import results
 from ..read.cells import grouped
 from ..words.tables import Table, whole
 
-Found = dict[str, Any]
+INVARIANTS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
 WORSE = {"holds": 0, "refused": 1, "broken": 2}
 
 
@@ -29,12 +28,12 @@ def text(run: results.Run) -> str:
                       f"{said}{len(ours)} cells of ours, {end}{f', {refused} refused' if refused else ''}\n"])
 
 
-def told(word: str, cell: dict[str, Any], verdict: str) -> str:
+def told(word: str, cell: Json, verdict: str) -> str:
     return "".join(f"{word} {cell['family']}: {cell['scene']}, {cell['system']}, {invariant}: {finding.get('detail', '')}\n"
                    for invariant, finding in cell["findings"].items() if finding["verdict"] == verdict)
 
 
-def text_of(invariant: str, finding: Found) -> str:
+def text_of(invariant: str, finding: Json) -> str:
     """Returns "right", "refused", "failed", "-12 +3" (missed and false pairs), "12 wrong" or "wrong"."""
     if finding["verdict"] != "broken":
         return "right" if finding["verdict"] == "holds" else "refused"
@@ -46,19 +45,19 @@ def text_of(invariant: str, finding: Found) -> str:
     return f"{wrong:,} wrong" if wrong else "wrong"
 
 
-def verdict_of(cell: dict[str, Any]) -> str:
+def verdict_of(cell: Json) -> str:
     """Returns the verdict of one system on a scene."""
     worst = max(cell["findings"].items(), key=lambda found: WORSE[found[1]["verdict"]], default=None)
     return text_of(*worst) if worst else ""
 
 
-def tally(cells: list[dict[str, Any]]) -> str:
+def tally(cells: list[Json]) -> str:
     """Returns "21 right", "20 right, 1 wrong"."""
     counts = Counter(word if (word := verdict_of(cell)) in ("right", "refused") else "wrong" for cell in cells)
     return ", ".join(f"{counts[word]} {word}" for word in ("right", "refused", "wrong") if counts[word])
 
 
-def scenes(cells: list[dict[str, Any]]) -> str:
+def scenes(cells: list[Json]) -> str:
     libraries = list(dict.fromkeys(cell["system"] for cell in cells if cell["kind"] == "library"))
     table = Table("<scene", "triangles", "<ours", "<wrapped libraries", *(f"<{library}" for library in libraries))
     for row, those in grouped(cells, lambda cell: f"{cell['family']}: {cell['scene']}").items():
@@ -70,19 +69,17 @@ def scenes(cells: list[dict[str, Any]]) -> str:
     return table.text()
 
 
-def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
-    schema = json_files.parsed(documents.FOLDER / "schema" / "result-1.schema.json")
-    invariants = schema["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
-    table = Table("<system", "scenes", *(f"<{name}" for name in invariants), "<")
+def systems(cells: list[Json], versions: dict[str, str]) -> str:
+    table = Table("<system", "scenes", *(f"<{name}" for name in INVARIANTS), "<")
     for system, those in grouped(cells, lambda cell: cell["system"]).items():
-        found = {name: [cell["findings"][name] for cell in those if name in cell["findings"]] for name in invariants}
+        found = {name: [cell["findings"][name] for cell in those if name in cell["findings"]] for name in INVARIANTS}
         library = those[-1].get("library", "")
         table.row(system, str(len(those)), *(text_of(name, joined(own)) if own else "" for name, own in found.items()),
                   f"{library} {versions[library]}" if library in versions else library)
     return table.text()
 
 
-def joined(findings: list[Found]) -> Found:
+def joined(findings: list[Json]) -> Json:
     """Adds up the findings' numbers and keeps the worst verdict."""
     worst = max(findings, key=lambda one: WORSE[one["verdict"]])
     return {"verdict": worst["verdict"], **{key: sum(one[key] for one in findings) for key in ("wrong", "missed")}}

@@ -2,15 +2,13 @@
 nanoseconds. A cell of several stages has an entry for its whole time, then one for each stage, NAME/STAGE."""
 import json
 from collections.abc import Iterator
-from typing import Any
 
 import numpy
 
+from ..files.json_files import Json
 from ..read.cells import Cell, times_ns
 from ..read.results import Run
 from .cell_names import Owned, names_of
-
-Entry = dict[str, Any]
 
 
 def text(runs: list[Run]) -> str:
@@ -19,14 +17,14 @@ def text(runs: list[Run]) -> str:
     return f'{{"context": {json.dumps(context(runs), indent=1, ensure_ascii=False)},\n"benchmarks": [\n{entries}\n]}}\n'
 
 
-def context(runs: list[Run]) -> Entry:
+def context(runs: list[Run]) -> Json:
     """Returns what the format says about the machine. Facts that are not known, or not equal in all files, are left out."""
     each = [context_of(run) for run in runs]
     shared = {key: value for key, value in each[0].items() if all(other.get(key) == value for other in each)}
     return {"date": min(one["date"] for one in each), **shared, "json_schema_version": 1}
 
 
-def context_of(run: Run) -> Entry:
+def context_of(run: Run) -> Json:
     program, host, device, state = (run.facts.get(part, {}) for part in ("program", "host", "device", "conditions"))
     known = {"date": run.facts["started_at"], "host_name": host["name"], "executable": run.facts["command"][0],
              "num_cpus": host["threads"], "caches": [],
@@ -40,7 +38,7 @@ def context_of(run: Run) -> Entry:
     return known
 
 
-def benchmarks(runs: list[Run]) -> Iterator[Entry]:
+def benchmarks(runs: list[Run]) -> Iterator[Json]:
     """Yields the entries of all cells. Cells of one builder or pipeline are a family."""
     cells: list[Owned] = [(run, cell) for run in runs for cell in run.all_cells]
     families: dict[tuple[str, str], int] = {}
@@ -54,7 +52,7 @@ def benchmarks(runs: list[Run]) -> Iterator[Entry]:
                        "run_type": "iteration", "repetitions": len(entries), "repetition_index": number, "threads": 1, **entry}
 
 
-def series_of(cell: Cell, name: str) -> Iterator[tuple[str, list[Entry]]]:
+def series_of(cell: Cell, name: str) -> Iterator[tuple[str, list[Json]]]:
     """Yields the whole times of a cell, and those of each stage if it has several; or one entry that says why it has none."""
     if not cell.has_times:
         yield name, [{**without_times(cell), "iterations": 0, **time(0), "label": cell.verdict}]
@@ -66,12 +64,12 @@ def series_of(cell: Cell, name: str) -> Iterator[tuple[str, list[Entry]]]:
         yield f"{name}/{stage}", [{"iterations": 1, **time(ns), **more} for ns in times_ns(cell.samples, stage)]
 
 
-def time(ns: numpy.float64 | int) -> Entry:
+def time(ns: numpy.float64 | int) -> Json:
     """Returns the times of an entry. The processor's own time is not measured, and readers require it: it repeats the other."""
     return {"real_time": float(ns), "cpu_time": float(ns), "time_unit": "ns"}
 
 
-def without_times(cell: Cell) -> Entry:
+def without_times(cell: Cell) -> Json:
     why = cell.reason or cell.check.get("detail") or "it has no samples"
     if cell.verdict in ("failed", "differs"):
         return {"error_occurred": True, "error_message": f"{cell.verdict}: {why}"}

@@ -12,6 +12,8 @@ from . import host_memory
 XZ = b"\xfd7zXZ\0"  # first bytes of a file packed by xz
 MOST_BYTES = 1 << 28  # largest size of an unpacked text
 
+Json = dict[str, Any]  # an object
+
 
 class Refused(Exception):
     """A file or cell that must not be used; the text says which and why."""

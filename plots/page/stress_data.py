@@ -1,25 +1,22 @@
 """What `stress` found, for the page: a sentence, and tables of systems, of what broke, and of everything. What a library got
 wrong is named and counted apart from what is ours."""
-from typing import Any
-
 from ..console import stress_table as words
+from ..files.json_files import Json
 from ..read.cells import grouped
 from ..words.tables import counted
 from .cell_data import table
 
-FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
 FACETS = ("family", "whose", "kind", "invariant")
 QUESTION = "Which trees, pairs and contacts are right on hostile scenes?"
-Found = dict[str, Any]  # a cell of `stress`, as in the result file
 
 
-def verdicts(cell: Found) -> set[str]:
+def verdicts(cell: Json) -> set[str]:
     return {finding["verdict"] for finding in cell["findings"].values()}
 
 
-def finding_of(stress: list[Found]) -> dict[str, Any]:
+def finding_of(stress: list[Json]) -> Json:
     """Returns question and answer, as findings.py does."""
-    def count(cells: list[Found], verdict: str) -> int:
+    def count(cells: list[Json], verdict: str) -> int:
         return sum(verdict in verdicts(cell) for cell in cells)
 
     ours = [cell for cell in stress if not cell.get("library")]
@@ -30,7 +27,7 @@ def finding_of(stress: list[Found]) -> dict[str, Any]:
     return {"experiment": "stress", "question": QUESTION, "answer": " ".join(said), "rows": []}
 
 
-def shown(name: str, finding: Found | None) -> str | None:
+def shown(name: str, finding: Json | None) -> str | None:
     """Returns the verdict on an invariant, with what was missed and false of pairs and contacts, or how much was wrong."""
     if finding is None or finding["verdict"] != "broken":
         return finding and finding["verdict"]
@@ -40,7 +37,7 @@ def shown(name: str, finding: Found | None) -> str | None:
     return f"broken: {wrong:,} wrong" if wrong else "broken"
 
 
-def bad_table(stress: list[Found]) -> dict[str, Any] | None:
+def bad_table(stress: list[Json]) -> Json | None:
     """Returns one row for each finding that does not hold, ours first; None if all hold."""
     bad = [(cell, name, finding) for cell in sorted(stress, key=lambda cell: bool(cell.get("library")))
            for name, finding in cell["findings"].items() if finding["verdict"] != "holds"]
@@ -51,11 +48,11 @@ def bad_table(stress: list[Found]) -> dict[str, Any] | None:
     return table("Broken or refused", columns, FACETS, rows, libraries=[cell.get("library") for cell, _, _ in bad]) if bad else None
 
 
-def invariants_of(stress: list[Found]) -> list[str]:
-    return [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
+def invariants_of(stress: list[Json]) -> list[str]:
+    return [name for name in words.INVARIANTS if any(name in cell["findings"] for cell in stress)]
 
 
-def cells_table(stress: list[Found]) -> dict[str, Any]:
+def cells_table(stress: list[Json]) -> Json:
     there = invariants_of(stress)
     rows = [[cell["family"], cell["scene"], cell["system"], cell.get("library") or "ours", cell["kind"],
              *(shown(name, cell["findings"].get(name)) for name in there),
@@ -66,7 +63,7 @@ def cells_table(stress: list[Found]) -> dict[str, Any]:
     return table("Stress", columns, FACETS, rows, libraries=[cell.get("library") for cell in stress]) | {"folded": True}
 
 
-def systems_table(stress: list[Found]) -> dict[str, Any]:
+def systems_table(stress: list[Json]) -> Json:
     """Returns one row for each system: its findings over all scenes, added up; first the systems of which one does not hold."""
     there = invariants_of(stress)
     bad = {cell["system"] for cell in stress if verdicts(cell) - {"holds"}}
@@ -80,12 +77,12 @@ def systems_table(stress: list[Found]) -> dict[str, Any]:
     return table("By system", columns, FACETS, rows, libraries=[cells[-1].get("library") for cells in systems.values()])
 
 
-def shown_of(findings: list[Found]) -> str:
+def shown_of(findings: list[Json]) -> str:
     """Returns the worst verdict of several findings, with the number of scenes that have it if it is not "holds"."""
     worst = words.joined(findings)["verdict"]
     count = sum(finding["verdict"] == worst for finding in findings)
     return worst if worst == "holds" else f"{worst}: {counted(count, 'scene')}"
 
 
-def tables_of(stress: list[Found]) -> list[dict[str, Any]]:
+def tables_of(stress: list[Json]) -> list[Json]:
     return [found for found in (bad_table(stress), systems_table(stress), cells_table(stress)) if found] if stress else []

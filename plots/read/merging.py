@@ -2,15 +2,13 @@
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 from ..files.documents import line_of
+from ..files.json_files import Json
 from ..files.output import WrongUsage
 from . import cells
 
 WORST_FIRST = ("differs", "not_checked", "counted", "agrees")
-
-Json = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -116,7 +114,7 @@ def collected(parts: list[Part], kind: str) -> tuple[list[Json], int]:
     return [cell for _, cell in seen.values()], repeated
 
 
-def answers_of(cell: Json) -> dict[str, Any]:
+def answers_of(cell: Json) -> Json:
     """Returns what a cell is about and what it found, which must not vary between processes."""
     return {key: value for key, value in cell.get("check", {}).items() if key.endswith("_hash")} | {
         "content_hash": cell["scene"].get("content_hash"), "outside": cell.get("outside")}

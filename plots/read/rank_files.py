@@ -1,11 +1,9 @@
 """Cells of several ranks, which `bvhbench cluster`, its --simulate and `bvhbench scale` measure."""
 import statistics
-from typing import Any
 
 from ..files import documents
-from ..files.json_files import Refused
+from ..files.json_files import Json, Refused
 
-Json = dict[str, Any]
 OPERATION = "cluster"
 ASKED, FOUND = ("ranks_count", "simulated", "partition", "boxes_count"), ("halo_share", "imbalance", "ranks")  # keys of each; of each that was measured
 
@@ -47,7 +45,7 @@ def measured(cells: list[Json]) -> list[Json]:
     return sorted((cell for cell in cells if cell["status"] == "measured"), key=lambda cell: cell["ranks_count"])
 
 
-def asked_of(cell: Json) -> dict[str, Any]:
+def asked_of(cell: Json) -> Json:
     """Returns what was asked for, but for the scene."""
     builder, collider = (cell.get(part, {}) for part in ("builder", "collider"))
     options = collider.get("options", {})

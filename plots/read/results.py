@@ -5,11 +5,10 @@ import os
 import pathlib
 from collections import defaultdict
 from dataclasses import dataclass, field
-from typing import Any
 
 from ..files import documents
 from ..files.documents import FOLDER
-from ..files.json_files import Refused, parsed
+from ..files.json_files import Json, Refused, parsed
 from ..words import names
 from .cells import Cell, Quantiles, grouped, median, quantiles  # noqa: F401  (for figures, which read results alone)
 
@@ -22,16 +21,16 @@ class Run:
     """A result file, `document`. If read for figures, it also has its cells; those without numbers are kept separately."""
 
     path: pathlib.Path
-    document: dict[str, Any]
+    document: Json
     cells: list[Cell] = field(default_factory=list)
     without_numbers: list[Cell] = field(default_factory=list)
 
     @property
-    def facts(self) -> dict[str, Any]:
+    def facts(self) -> Json:
         return self.document["run"]
 
     @property
-    def stress(self) -> list[dict[str, Any]]:
+    def stress(self) -> list[Json]:
         """Returns the results of `bvhbench stress`, as in the file."""
         return self.document.get("stress", [])
 
@@ -110,12 +109,12 @@ class Run:
                 f"commit {program['commit'][:10]}{state}{build}{each}")
 
 
-def is_dirty(program: dict[str, Any]) -> bool:
+def is_dirty(program: Json) -> bool:
     """True if no commit has the program. Older files may say that one of unknown commit has no changes."""
     return program["dirty"] or program["commit"] == "unknown"
 
 
-def changes_text(program: dict[str, Any]) -> str:
+def changes_text(program: Json) -> str:
     """Returns why a program is dirty, with up to three of the changed files that newer result files name."""
     if program["commit"] == "unknown":
         return "of unknown commit"
@@ -124,7 +123,7 @@ def changes_text(program: dict[str, Any]) -> str:
     return "with changes that no commit has" + (f" ({told})" if told else "")
 
 
-def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
+def costs_of(facts: Json) -> tuple[float, float]:
     """Returns the costs of an inner node and a triangle."""
     costs = facts.get("node_costs", {})
     return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS, strict=True))
@@ -143,7 +142,7 @@ def is_result(path: pathlib.Path) -> bool:
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
 
 
-def document_of(path: pathlib.Path) -> dict[str, Any]:
+def document_of(path: pathlib.Path) -> Json:
     """Returns a result file, wrong answers included. Raises Refused for another format and for what is no result file."""
     return documents.checked(parsed(path), os.fspath(path))
 
@@ -172,14 +171,14 @@ def everything(path: str | os.PathLike[str]) -> Run:
     return Run(pathlib.Path(path), documents.read(os.fspath(path)))
 
 
-def failed_if_wrong(raw: dict[str, Any]) -> dict[str, Any]:
+def failed_if_wrong(raw: Json) -> Json:
     """Returns the cell of a method from outside whose answer is wrong as one that failed, any other as it is."""
     if "outside" in raw and raw.get("check", {}).get("verdict") == "differs":
         return raw | {"status": "failed", "reason": f"wrong answer: {raw['check'].get('detail', 'no detail given')}"}
     return raw
 
 
-def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
+def cell_of(path: pathlib.Path, raw: Json) -> Cell:
     """Raises Refused for a wrong answer."""
     cell = Cell(raw)
     if cell.verdict == "differs":
@@ -188,7 +187,7 @@ def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
     return cell
 
 
-def printed(name: str) -> dict[str, Any]:
+def printed(name: str) -> Json:
     """Returns numbers printed in the paper: 'table1' to 'table4', 'fig8'."""
     return json.loads((PAPER / f"{name}.json").read_text(encoding="utf-8"))
 

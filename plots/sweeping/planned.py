@@ -1,11 +1,10 @@
 """A cell of a sweep: the experiment of its process, and the program's description of it or the reason why it is impossible."""
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
+from ..files.json_files import Json
 from ..read import cells
 
-Json = dict[str, Any]
 Expand = Callable[[list[Json]], list[Json]]  # returns the program's answers to experiments
 
 NO_BUILDER = "none"  # for colliders without a tree
