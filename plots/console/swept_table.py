@@ -24,9 +24,8 @@ def text(run: results.Run, operation: str = "collide") -> str:
         numbers = [numbers_of(cell) for cell in cells]
         for cell, own in zip(cells, numbers, strict=True):
             scene = cell.scene_facts["name"] + (f" for {cell.stand_in_for}" if cell.stand_in_for else "")
-            why = cell.reason or cell.check.get("detail", "")
             table.row(scene, str(cell.frame), cell.swept.get("pairs", ""), method_of(cell), *columns(with_narrow, *own),
-                      cell.verdict + (f": {why}" if why else ""))
+                      spread.why(cell))
         if len(cells) > 1:
             table.row("", "", "both", "", *columns(with_narrow, *map(sum, zip(*numbers, strict=True))))
     return table.text() if steps else ""

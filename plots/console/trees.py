@@ -33,10 +33,8 @@ def refits(run: results.Run) -> str:
     """Returns each refit beside the rebuild by the same builder on the same scene."""
     table = Table("<scene", "triangles", "<builder", "rebuild", "refit", "times", "hierarchy", "refit stage", "times",
                   "SAH rebuilt", "refitted")
-    rebuilds: dict[tuple[object, ...], Cell] = {}
-    for cell in run.all_cells:
-        if cell.operation == "build" and may_be_shown(cell):
-            rebuilds.setdefault(cell.key("builder", "scene", "experiment", "caches"), cell)
+    rebuilds = {cell.key("builder", "scene", "experiment", "caches"): cell
+                for cell in reversed(run.all_cells) if cell.operation == "build" and may_be_shown(cell)}
     slower = 0
     for cell in run.all_cells:
         beside = rebuilds.get(cell.key("builder", "scene", "experiment", "caches"))

@@ -83,9 +83,8 @@ class Bars:
         titles = {cell.scene: scene_title(cell) for cell in cells}
         self.rate.set_xlim(-0.5, len(self.scenes) - 0.5)
         self.rate.set_xticks(range(len(self.scenes)), [titles[scene] for scene in self.scenes])
-        self.rate.tick_params(axis="x", length=0)
-        self.time.tick_params(axis="x", length=0)
-        self.throughput.tick_params(axis="x", length=0)
+        for axes in (self.rate, self.time, self.throughput):
+            axes.tick_params(axis="x", length=0)
         self.throughput.set(ylabel="million triangles/s")
         self.time.set(yscale="log", ylabel="hierarchy, ms")
         self.scale(cells)

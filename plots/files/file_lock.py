@@ -32,18 +32,17 @@ def taken(path: str, subject: str, until: float) -> int:
             raise Refused(f"{subject} cannot be written: {error.strerror}") from error
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            is_held = False
         except OSError as error:
-            is_held = error.errno in (errno.EWOULDBLOCK, errno.EINTR)
-            if not is_held:
+            if error.errno not in (errno.EWOULDBLOCK, errno.EINTR):
                 return descriptor
-        if not is_held and names(path, descriptor):
+            os.close(descriptor)
+            if time.monotonic() >= until:
+                raise Refused(f"{subject} is being written by another process") from error
+            time.sleep(PAUSE_S)
+            continue
+        if names(path, descriptor):
             return descriptor
         os.close(descriptor)
-        if is_held:
-            if time.monotonic() >= until:
-                raise Refused(f"{subject} is being written by another process")
-            time.sleep(PAUSE_S)
 
 
 def names(path: str, descriptor: int) -> bool:

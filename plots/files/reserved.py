@@ -11,14 +11,9 @@ from .output import WrongUsage, standard_stream
 MOST_LINKS = 40  # Linux's limit
 
 
-def never(_text: bytes) -> bool:
-    """The default of `may_replace`: an earlier file is replaced with --force only."""
-    return False
-
-
 @contextlib.contextmanager
 def reserved(path: str, option: str, force: bool, inputs: Iterable[str] = (),
-             may_replace: Callable[[bytes], bool] = never) -> Iterator[None]:
+             may_replace: Callable[[bytes], bool] = lambda _text: False) -> Iterator[None]:
     """Prevents other processes from writing the file. Raises WrongUsage if it is a folder, a packed file, one of the inputs, or
     an earlier file, unless `force` is true or `may_replace` returns true for its text. Raises Refused if it cannot be written or
     another process has reserved it. Creates no folder. Devices, pipes and standard output are not reserved."""

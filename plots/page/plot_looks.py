@@ -4,6 +4,7 @@ from typing import Any
 from ..draw import pipelines, style
 from ..figures import accuracy, frame_bars
 from ..read import results
+from ..read.cells import grouped
 from ..words import names
 from .cell_data import BETWEEN
 
@@ -35,18 +36,16 @@ def look_of(cell: dict[str, Any]) -> style.Look:
 def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
     """Returns the colour, symbol and dash of each name in a file, in the order of legends; no two names look alike."""
     order = list(style.LOOKS)
-    found: dict[str, style.Look] = {}
-    places: dict[str, int] = {}
-    for cell in cells:
-        found.setdefault(cell["who"], look_of(cell))
-        places.setdefault(cell["who"], order.index(cell["builder"]) if cell["builder"] in order else len(order))
+    firsts = [own[0] for own in grouped(cells, lambda cell: cell["who"]).values()]
+    firsts.sort(key=lambda cell: order.index(cell["builder"]) if cell["builder"] in order else len(order))
     looks, taken = {}, {}
-    for name in sorted(found, key=lambda name: places[name]):  # the sort is stable, so equal places keep the file's order
-        colour, symbol = found[name].colour, SYMBOLS[found[name].marker]
+    for cell in firsts:  # the sort is stable, so equal places keep the file's order
+        look = look_of(cell)
+        colour, symbol = look.colour, SYMBOLS[look.marker]
         used = taken.setdefault(colour, [])
         if symbol in used:
             symbol = next((other for other in MORE_SYMBOLS if other not in used), symbol)
-        looks[name] = {"colour": colour, "symbol": symbol, "dash": DASHES[len(used) % len(DASHES)]}
+        looks[cell["who"]] = {"colour": colour, "symbol": symbol, "dash": DASHES[len(used) % len(DASHES)]}
         used.append(symbol)
     return looks
 

@@ -11,6 +11,7 @@ took later.
 Frames are compared over those after the first (cells.later). On a scene with one frame, what starts from the frame before has no place.
 """
 import functools
+import itertools
 import math
 from collections.abc import Callable, Container, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -92,10 +93,6 @@ class Ranking:
     wrong: list[Cell]  # cells whose answer is wrong; they are in no row
     without: list[Cell]  # cells without times
     unplaced: list[Cell]  # cells that start from the frame before, of scenes with one frame
-
-    @property
-    def best(self) -> Row | None:
-        return self.rows[0] if self.rows else None
 
 
 def mean(values: Sequence[float]) -> float:
@@ -263,16 +260,12 @@ def rows_of_scene(cells: list[Cell], measure: Measure) -> list[Row]:
 
 def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:
     """Ranks the pipelines that have a time in every scene by the geometric mean of their ratios."""
-    found: dict[object, list[Row]] = {}
-    for rows in scenes.values():
-        for row in rows:
-            found.setdefault(method(row.first), []).append(row)
+    found = grouped(itertools.chain(*scenes.values()), lambda row: method(row.first))
     every = [rows for rows in found.values() if len(rows) == len(scenes) and all(row.ratio > 0 for row in rows)]
     merged = [Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]), 1,
                   float(numpy.exp(numpy.mean(numpy.log([row.ratio for row in rows])))), all(row.tied for row in rows),
                   all(row.complete for row in rows), [row.ratio for row in rows]) for rows in every]
-    merged.sort(key=lambda row: row.ratio)
-    return merged
+    return sorted(merged, key=lambda row: row.ratio)
 
 
 def ranked(cells: Iterable[Cell], objective: str = "frame", trusts_stages: bool = False) -> Ranking:

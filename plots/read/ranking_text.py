@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from ..words import names, terminal
 from ..words.tables import counted, duration, size
 from . import families
-from .cells import Cell
+from .cells import Cell, grouped
 from .ranking import Ranking, Row, ranked
 
 UNIT = {"frame": "a frame", "query": "a query", "build": "a build", "memory": ""}
@@ -63,10 +63,7 @@ def family(row: Row) -> str:
 
 def best_of_families(rows: Sequence[Row]) -> list[Row]:
     """Returns the first row of each family."""
-    firsts: dict[str, Row] = {}
-    for row in rows:
-        firsts.setdefault(family(row), row)
-    return list(firsts.values())
+    return [own[0] for own in grouped(rows, family).values()]
 
 
 def kind_of(row: Row) -> tuple[str, str | None]:
@@ -119,9 +116,9 @@ def error_words(row: Row) -> str:
 
 def sentence(found: Ranking) -> str:
     """Returns the answer as one sentence; empty if nothing has times."""
-    best = found.best
-    if best is None:
+    if not found.rows:
         return ""
+    best = found.rows[0]
     if len(found.scenes) > 1:
         what = "memory" if found.objective == "memory" else "time"
         amount = f"{number(best.ratio)} times the {what} of each scene's best, in the geometric mean over {len(found.scenes)} scenes"
