@@ -11,7 +11,6 @@
 #include "collide/narrow/narrow_words.h"
 #include "collide/narrow/sharing.h"
 #include "collide/parameters.h"
-#include "collide/within/within_words.h"
 #include "geometry/bits.h"
 #include "geometry/names.h"
 

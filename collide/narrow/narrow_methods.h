@@ -20,7 +20,7 @@ struct NarrowMethod {
     /// Of a method for swept boxes: features that come nearer than this share of the scene's longest side may be taken to touch.
     float tolerance = 0;
 
-    unsigned within_test = 0;  ///< of a method for distances: WITHIN_ of within_words.h
+    unsigned within_test = 0;  ///< of a method for distances: WITHIN_ of narrow_words.h
 
     NarrowOf of() const
     {

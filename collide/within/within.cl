@@ -10,13 +10,12 @@
 // more than half of the time on an H200. One kernel serves both forms: in chunks a work-group has one work-item.
 //
 //     GROUP_SIZE of the work-group
-//     TEST       of within_words.h
+//     TEST       WITHIN_ of narrow_words.h
 //     FROM       where the counters have the number of candidates
 //     LEFT       where they have that of pairs left over
 #include "collide/found.clh"
 #include "collide/narrow/narrow_words.h"
 #include "collide/within/shapes.clh"
-#include "collide/within/within_words.h"
 
 #if HAS_DOUBLES
 

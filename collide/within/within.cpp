@@ -16,7 +16,6 @@
 #include "collide/within/closest.h"
 #include "collide/within/distance_filter.h"
 #include "collide/within/exact_distance.h"
-#include "collide/within/within_words.h"
 #include "geometry/bits.h"
 #include "geometry/cores.h"
 

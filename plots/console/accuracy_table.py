@@ -120,6 +120,14 @@ def frames(cells: list[Cell]) -> str:
     return table.text()
 
 
+def distance(cells: list[Cell]) -> str:
+    return lines(cells, ("<scene", "<narrow phase", "within", "candidates", "pairs", "missed", "false", "median error", "most", "narrow", "frame"), lambda cell: [
+        cell.raw["collider"]["options"]["within"], *must(cell, "pairs_count", "contacts_count"),
+        *(count or "0" for count in counts(cell, "missed_count", "false_count")),
+        *(f"{error:.0e}" if (error := cell.counters.get(f"distance_error_{key}")) is not None else "" for key in ("median", "most")),
+        duration(cell.median_ns("narrow")), duration(cell.median_ns())])
+
+
 def queries(cells: list[Cell]) -> str:
     """Returns one line for each set of queries and method, and one for each method over all sets of a kind."""
     titles = ("<queries", "<method", "number", "touch", "missed", "false", "late", "median gap", "99 %", "mean loss", "cut short", "ns/query")
@@ -139,4 +147,4 @@ def sums_of_queries(cells: list[Cell]) -> dict[tuple[str, str], dict[str, int]]:
 
 
 AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "boxes": boxes,
-                                                "frames": frames, "queries": queries}
+                                                "frames": frames, "queries": queries, "distance": distance}

@@ -5,9 +5,10 @@ numbers. sums: a panel a scene, a point a way to add areas up. codes: a panel a 
 which is the fastest of build and k queries. input: how many pairs of boxes, and what a frame takes, by how far from the
 origin the scene is. boxes: a panel a scene, a point a format, larger the more bytes a box takes. swept: as
 swept_bars.py. frames: a panel a scene, a point a setting, false contacts above and missed ones below. impacts: a panel
-a scene and query, a point a tolerance. queries: a column a kind of queries, false ones above and what a step loses
-below. In sums, codes, boxes, impacts and queries left and down is better; the grey line joins what no other method is as
-good as in both time and error (the Pareto front), and those points are filled.
+a scene and query, a point a tolerance. distance: a panel a scene and distance, a point a narrow phase. queries: a
+column a kind of queries, false ones above and what a step loses below. In sums, codes, boxes, impacts, distance and
+queries left and down is better; the grey line joins what no other method is as good as in both time and error (the
+Pareto front), and those points are filled.
 """
 import functools
 import math
@@ -185,16 +186,27 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
-def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
-    inputs = results.grouped(cells, lambda cell: f"{cell.scene},\n{cell.swept['pairs']}")
-    drawing, _ = sheet("impacts", inputs, SCENE_COLUMNS, 2.0, lambda cell: cell.counters["false_count"],
+def draw_narrow_of(run: results.Run, axis: str, inputs: dict[str, list[results.Cell]], what: str, columns: int) -> plt.Figure:
+    """Draws a panel for each input: false pairs by what the narrow phase takes. `what` says what pairs are found."""
+    drawing, _ = sheet(axis, inputs, SCENE_COLUMNS, 2.0, lambda cell: cell.counters.get("false_count", 0),
                        (1, 1, lambda value: f"{value:,.0f}"), lambda cell: 1e3 * median_s(cell, "narrow"),
                        ("narrow phase, ms", "false pairs"), fontsize=6.5)
-    missed = sum(cell.counters["missed_count"] for cell in cells)
+    cells = [cell for own in inputs.values() for cell in own]
+    missed = sum(cell.counters.get("missed_count", 0) for cell in cells)
     figure.footer(drawing, run, "accuracy", (
-        f"Pairs found that do not touch between two frames, against CGAL; {missed:,.0f} that do are missed. Left and down is "
-        "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, "impacts", cells, 3))
+        f"Pairs found that {what}, against CGAL; {missed:,.0f} right ones are missed. Left and down is "
+        "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, axis, cells, columns))
     return drawing
+
+
+def draw_impacts(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = results.grouped(cells, lambda cell: f"{cell.scene},\n{cell.swept['pairs']}")
+    return draw_narrow_of(run, "impacts", inputs, "do not touch between two frames", 3)
+
+
+def draw_distance(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = results.grouped(cells, lambda cell: f"{cell.scene},\nwithin {cell.raw['collider']['options']['within']}")
+    return draw_narrow_of(run, "distance", inputs, "are not within the distance", 4)
 
 
 def kind_of(cell: results.Cell) -> str:
@@ -239,7 +251,7 @@ def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
            "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
            "swept": {"swept": functools.partial(swept_bars.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw},
-           "impacts": {"impacts": draw_impacts}, "queries": {"queries": draw_queries}}
+           "impacts": {"impacts": draw_impacts}, "distance": {"distance": draw_distance}, "queries": {"queries": draw_queries}}
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:

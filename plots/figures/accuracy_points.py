@@ -34,6 +34,9 @@ METHODS = {
               | {f"input {bits} bits": Look("#D55E00", marker) for bits, marker in ((20, "^"), (16, "s"), (12, "D"), (8, "o"))}
               | {"all coarse": Look("#CC79A7", "P")},
     "impacts": {"ccd-1e-2": Look("#D55E00", "v"), "ccd-1e-4": Look("#E69F00", "s"), "ccd-1e-6": Look("#0072B2", "o")},
+    "distance": {"exact": Look("#000000", "*"), "within-f64": Look("#0072B2", "o"), "within-f32": Look("#56B4E9", "v"),
+                 "within-capsules": Look("#009E73", "D"), "within-spheres": Look("#E69F00", "s"),
+                 "within-rounded-boxes": Look("#CC79A7", "^"), "within-boxes": Look("#D55E00", "P")},
     "queries": {f"ccd-f32-1e-{digits}": Look("#56B4E9", marker) for digits, marker in ((2, "v"), (4, "s"), (6, "o"))}
                | {f"ccd-f64-1e-{digits}": Look("#0072B2", marker) for digits, marker in ((2, "v"), (4, "s"), (6, "o"), (10, "D"))}
                | {"additive-f64": Look("#009E73", "^"), "roots-f64-1e-6": Look("#D55E00", "o"), "roots-f64-1e-10": Look("#D55E00", "D")},

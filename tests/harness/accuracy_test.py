@@ -11,8 +11,8 @@ from program import SCHEMA, expect, main, run, valid
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
     assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept", "frames",
-                                                                                          "impacts", "queries"]
-    methods = [name for name in (line.split()[0] for line in expect(0, "list", "narrow").splitlines()) if not name.startswith("ccd")]
+                                                                                          "impacts", "queries", "distance"]
+    methods = [name for name in (line.split()[0] for line in expect(0, "list", "narrow").splitlines()) if not name.startswith(("ccd", "within"))]
     assert methods[0] == "filter-f64+exact", methods
     out = expect(0, "accuracy", "--axis", "narrow", "--pairs", "30000", "--samples", "2", "--seed", "5", "--out", "a",
                  says="filter-f64+exact: 0 missed and 0 false of 30,000 pairs")
@@ -34,7 +34,7 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
            "--out", "b", says="guigue-f64: 0 missed")
     axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
     assert axes == ["narrow", "narrow", "sums", "codes", "boxes"], axes
-    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept, frames, impacts, queries")
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept, frames, impacts, queries, distance")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
 
@@ -71,6 +71,14 @@ def test_accuracy_of_impacts_counts_what_each_tolerance_finds_too_much_and_misse
     assert " narrow, ms " in out and out.count(" both ") == 6, out
 
 
+def test_accuracy_of_distances_misses_nothing_and_says_how_far_off_they_are():
+    expect(0, "accuracy", "--axis", "distance", "--scene", "two-spheres:1200:1", "--samples", "1", "--out", "w", says="within-spheres")
+    cells = valid("w/accuracy-distance.json")["cells"]
+    assert len(cells) == 14 and [cell["check"]["verdict"] for cell in cells] == 2 * (["agrees"] + 6 * ["counted"]), cells
+    assert all(cell["counters"].get("missed_count", 0) == 0 for cell in cells), cells
+    assert {cell["accuracy"]["method"] for cell in cells if "distance_error_most" in cell["counters"]} == {"within-f32", "within-f64"}, cells
+
+
 def test_accuracy_of_queries_misses_nothing_with_bounds():
     """Two edges that cross at a third of the step, and two that pass each other: by every method."""
     lines = ["-1,1,0,1,0,1", "1,1,0,1,0,1", "0,1,-1,1,1,1", "0,1,1,1,1,1", "-1,1,0,1,0,1", "1,1,0,1,0,1", "0,1,-1,1,-2,1", "0,1,1,1,-2,1"]
@@ -91,7 +99,7 @@ def test_accuracy_of_queries_misses_nothing_with_bounds():
 
 def test_accuracy_of_frames_is_exact_until_the_narrow_phase_or_the_vertices_are_rounded():
     narrow, formats = ([line.split()[0] for line in expect(0, "list", what).splitlines()][1:] for what in ("narrow", "formats"))
-    narrow = [name for name in narrow if not name.startswith("ccd")]
+    narrow = [name for name in narrow if not name.startswith(("ccd", "within"))]
     out = expect(0, "accuracy", "--axis", "frames", "--scene", "cloth-ball:3000:7", "nonsense", "--samples", "2", "--out", "f",
                  says="exact")
     *cells, missing = valid("f/accuracy-frames.json")["cells"]

@@ -71,16 +71,6 @@ def test_frames_objects_and_trees_have_theirs():
         assert {cell["check"]["verdict"] for cell in cells} == {"agrees"} and len({cell["within_distance"] for cell in cells}) == 1, cells
 
 
-def test_other_methods_are_counted():
-    for method in ("within-f32", "within-capsules", "within-boxes"):
-        expect(0, *COLLIDE, "two-spheres:1200:1", "--adjacent", "drop", "--within", "2%", "--narrow", method, "--json", "w.json")
-        cell = only("w.json")
-        assert cell["check"]["verdict"] == "counted" and cell["counters"]["missed_count"] == 0, cell
-        assert ("distance_error_most" in cell["counters"]) == (method == "within-f32"), cell
-        assert (cell["counters"]["false_count"] > 0) == (method != "within-f32"), cell
-    expect(2, *COLLIDE, "two-spheres:1200:1", "--narrow", "within-f32", says="is about a distance: it needs 'within'")
-
-
 def test_wrong_pairs_differ():
     for file, pattern, text in (("distance_filter.h", r"\) <= low", ") <= 4.0 * low"), ("pad.cl", r"p \+ reach", "p + 0.5f * reach")):
         copied_kernels("k", f"collide/within/{file}", pattern, text)
@@ -105,6 +95,7 @@ def test_what_does_not_go_with_it_is_refused_in_one_sentence():
                        (("--pairs", "p.csv"), "finds pairs of triangles and none of boxes: --contacts, not --pairs"),
                        (("--narrow", "exact", "--containment"), "needs all exact contacts between objects")):
         expect(2, *COLLIDE, "n-body:6100:3", "--within", "1", *words, says=why)
+    expect(2, *COLLIDE, "n-body:6100:3", "--narrow", "within-f32", says="is about a distance: it needs 'within'")
     for word in ("-1", "inf", "nan", "1e400", "one", "1%%", "%"):
         expect(2, *COLLIDE, "n-body:6100:3", f"--within={word}", says="'within' takes none, a distance, or a share")
 

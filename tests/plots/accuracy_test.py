@@ -79,7 +79,7 @@ class Figures(InFolder):
         for axes in drawing.axes:
             self.assertEqual(len(axes.lines), 4)  # the front and three tolerances
             self.assertEqual(sorted(line.get_ydata()[0] for line in axes.lines[1:]), [127, 4105, 411000])
-        self.assertIn("0 that do are missed", drawing.texts[0].get_text())
+        self.assertIn("0 right ones are missed", drawing.texts[0].get_text())
 
     def test_of_frames_have_false_contacts_above_the_band_of_none_and_missed_ones_below(self) -> None:
         drawing = self.drawn("frames")

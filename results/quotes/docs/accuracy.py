@@ -71,6 +71,23 @@ def queries(doc: Document) -> None:
         row(method) for method in dict.fromkeys(cell.accuracy["method"] for cell in cells)))
 
 
+def distance(doc: Document) -> None:
+    files = [File(f"{machine}/accuracy-distance").cells for machine in ("h200", "pocl-2-cores")]
+    if any(cell.counters.get("missed_count", 0) for cells in files for cell in cells):
+        raise ValueError("the page says that no method misses a pair")
+
+    def row(method: str) -> list[str | float]:
+        entries: list[str | float] = [f"`{method}`"]
+        for within in ("0.1%", "1%"):
+            there = [[cell for cell in cells if (cell.accuracy["method"], cell.raw["collider"]["options"]["within"]) == (method, within)] for cells in files]
+            entries += [int(sum(cell.counters.get("false_count", 0) for cell in there[0])), *(sum(us(cell, "narrow") for cell in own) * 1e-3 for own in there)]
+        errors = [cell.counters["distance_error_most"] for cell in files[0] if cell.accuracy["method"] == method and "distance_error_most" in cell.counters]
+        return [*entries, f"{max(errors):.1e}" if errors else ""]
+
+    doc.table("distance", "< narrow phase | 0.1 %: false | H200, ms | two cores, ms | 1 %: false | H200, ms | two cores, ms | error of D", (
+        row(method) for method in dict.fromkeys(cell.accuracy["method"] for cell in files[0])))
+
+
 def quotes(doc: Document) -> None:
-    for part in (narrow, axes_of_two_cores, frames, queries):
+    for part in (narrow, axes_of_two_cores, frames, queries, distance):
         part(doc)
