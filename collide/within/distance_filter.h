@@ -19,9 +19,10 @@
 // to factors of squares and sums, and of the square that they are compared with: 1 + 10 u in all, which 1 + 16 u covers.
 //
 // In doubles M is 0 or at least 2^-149, as floats are multiples of that: with N of at least 2^-400, what underflows is less than the smallest
-// part of a bound. Sums of squares are below 2^524. In floats M must be from 2^-40 to 2^30 and N at least 2^-40. What underflows or is
-// flushed is less than 2^-126, some ten times; u M N is at least 2^-104, the square of n at least 2^-82, and that of 64 u M 2^-116. Products
-// are below 2^128.
+// part of a bound. Sums of squares are below 2^524. A device may take a denormal float for 0, so within.cl leaves pairs with one to the host.
+// In floats M must be from 2^-40 to 2^30. What underflows or is flushed, also of corners, is less than 2^-126, some ten times, and 64 u M
+// squared at least 2^-116. For a direction N must be at least 2^-40: u M N is at least 2^-104 and the square of n 2^-82. Products are below
+// 2^128, with n's largest coordinate at most 2 M. Of products that are compared, flushing keeps the order.
 //
 //     REAL_BITS    32 or 64: precision of the type Real; 64 if it is not defined
 #ifndef BVHBENCH_COLLIDE_DISTANCE_FILTER_H
@@ -62,6 +63,29 @@ typedef struct {
     Arrow along;
     Real square;
 } Way;
+
+/// True if a corner of one is where one of the other is, by bits: == may take two denormals for each other.
+SHARED_FN_INLINED bool have_common_corner(Corners p, Corners q)
+{
+    bool is_found = false;
+    for (uint k = 0u; k < 9u; ++k) {
+        const Point a = p.at[k / 3u], b = q.at[k % 3u];
+        is_found = is_found || (as_uint(a.x) == as_uint(b.x) && as_uint(a.y) == as_uint(b.y) &&
+                                as_uint(a.z) == as_uint(b.z));
+    }
+    return is_found;
+}
+
+/// True if a coordinate is a denormal, which a device may take for 0.
+SHARED_FN_INLINED bool has_denormal(Corners p)
+{
+    bool is_found = false;
+    for (uint k = 0u; k < 9u; ++k) {
+        const uint bits = as_uint(coordinate(p.at[k / 3u], k)) << 1;
+        is_found = is_found || (bits != 0u && bits < 0x01000000u);
+    }
+    return is_found;
+}
 
 SHARED_FN_INLINED Arrow arrow(Point from, Point to)
 {
@@ -219,7 +243,7 @@ SHARED_FN_INLINED bool planes_part(Spread of, Real high)
 /// all ways, which are asked if `with_all_ways`.
 SHARED_FN uint likely_within(Corners p, Corners q, Real low, Real high, bool with_all_ways)
 {
-    if (have_common_place(p, q))
+    if (have_common_corner(p, q))
         return VERDICT_MEET;
     const Spread spread = spread_of(p, q);
     const Way way = way_between_corners(spread);

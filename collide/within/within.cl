@@ -26,6 +26,8 @@ static inline uint verdict_on(const Corners p, const Corners q, const Real low, 
 {
     (void)low, (void)square;
 #if TEST == WITHIN_CORNERS || TEST == WITHIN_WAYS
+    if (REAL_BITS == 64 && (has_denormal(p) || has_denormal(q)))
+        return VERDICT_UNSURE;
     return likely_within(p, q, low, high, TEST == WITHIN_WAYS);
 #elif TEST == WITHIN_COMPUTED
     *square = computed_square(p, q);

@@ -270,8 +270,9 @@ std::vector<Pair> WithinPhase::pairs(const Queue& queue) const
 
 std::vector<double> WithinPhase::distance_errors(const Input& input, const Queue& queue) const
 {
-    if (!computes_distances_)
+    if (!computes_distances_ || options_.distance == 0)
         return {};
+    assert(!input.points.empty());
     const std::vector<Pair> found = pairs(queue);
     const std::vector<double> computed = distances_.download(queue.cl());
     std::vector<double> errors(found.size());

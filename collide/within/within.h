@@ -74,7 +74,7 @@ public:
     std::vector<Pair> pairs(const Queue& queue) const;
 
     /// By how much the distances computed by a method in floats or doubles are off, as shares of the distance asked for, sorted. Empty for
-    /// other methods. Blocks.
+    /// other methods and for a distance of 0. `input` has the host's points. Blocks.
     std::vector<double> distance_errors(const Input& input, const Queue& queue) const;
 
     /// The same pairs in device memory; their number is at CONTACTS_COUNT of the counters.

@@ -39,6 +39,7 @@ def parser() -> command.Parser:
     add("--pairs-of", help="all, between or within: pairs of all triangles, between objects or within")
     add("--adjacent", help="keep or drop pairs that share a vertex index")
     add("--narrow", help="which pairs intersect: a name of `list narrow`, exact, or none")
+    add("--within", help="pairs of triangles at most this far apart, as of `collide`")
     add("--max-samples", type=int, default=MOST, help="samples of those that nobody beats")
     add("--all", action="store_true", help="print every row, and all that was left out")
     add("--out", default="best.json", help="the result file; the figure is beside it")

@@ -13,7 +13,7 @@ NAME = "best"
 # The scenes without SCENE: one that collides with itself, a cloth that falls, and many objects.
 OWN = ({"scene": "hairball:30000"}, {"scene": "cloth-ball:20000:16", "frames": "12:15"},
        {"scene": "n-body:20000:16", "frames": "8:10", "pairs_of": "between"})
-QUESTION = ("adjacent", "narrow", "pairs_of")
+QUESTION = ("adjacent", "narrow", "pairs_of", "within")
 OF_SCENE = ("frames", "objects")
 RACES = {"frame": "whole", "build": "whole", "query": "query", "memory": "memory"}
 UNTIL, LEAST, MOST = 0.05, 5, 12  # quartile range, and samples, of those that nobody beats

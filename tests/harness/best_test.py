@@ -88,7 +88,7 @@ def test_refuses_before_it_measures() -> None:
             (2, ["soup:70", "--colliders", "leaf,"], "no collider is called ''"),
             (2, ["soup:70", "--frames", "3:1"], "frames 3:1 are none"),
             (2, ["soup:70", "--for", "speed"], "speed"),
-            (2, ["soup:70", "--for", "build", "--narrow", "exact"], "--narrow is for pairs"),
+            (2, ["soup:70", "--for", "build", "--within", "1%"], "--within is for pairs"),
             (2, ["soup:70", "--for", "build", "--frames", "0:2"], "--frames is for pairs"),
             (2, ["soup:70", "--for", "build", "--colliders", "leaf"], "--colliders is for pairs"),
             (2, ["--frames", "0:2"], "none is named"),
