@@ -94,7 +94,7 @@ WithinPhase::WithinPhase(Programs& programs, const WithinOptions& options)
                               " needs doubles, which the device has not");
         computes_distances_ = method.within_test == WITHIN_COMPUTED;
         add_pass(method.within_test, method.real_bits, PAIRS_COUNT, NARROW_EXACT_COUNT);
-    } else if (can_double && form_ == KernelForm::groups) {
+    } else if (can_double && in_groups()) {
         add_pass(WITHIN_CORNERS, 32, PAIRS_COUNT, NARROW_FLOAT_COUNT);
         add_pass(WITHIN_WAYS, 32, NARROW_FLOAT_COUNT, NARROW_DOUBLE_COUNT);
         add_pass(WITHIN_WAYS, 64, NARROW_DOUBLE_COUNT, NARROW_EXACT_COUNT);

@@ -85,7 +85,7 @@ private:
     struct Pass {
         cl::Kernel kernel;
         unsigned real_bits;
-        uint left_at;  ///< the counter of pairs left over
+        uint left_at;  ///< where the counters have the number of pairs left over
         std::size_t room = 0;
         Buffer<Pair> left = {};
     };

@@ -190,7 +190,7 @@ def draw_narrow_of(run: results.Run, axis: str, inputs: dict[str, list[results.C
     """Draws a panel for each input: false pairs by what the narrow phase takes. `what` says what pairs are found."""
     drawing, _ = sheet(axis, inputs, SCENE_COLUMNS, 2.0, lambda cell: cell.counters.get("false_count", 0),
                        (1, 1, lambda value: f"{value:,.0f}"), lambda cell: 1e3 * median_s(cell, "narrow"),
-                       ("narrow phase, ms", "false pairs"), fontsize=6.5)
+                       ("narrow phase, ms", "false pairs"), functools.partial(log_times, most=4), fontsize=6.5)
     cells = [cell for own in inputs.values() for cell in own]
     missed = sum(cell.counters.get("missed_count", 0) for cell in cells)
     figure.footer(drawing, run, "accuracy", (
