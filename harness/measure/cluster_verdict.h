@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "collide/pairs.h"
+#include "harness/choice/scene_choice.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
 
