@@ -17,31 +17,6 @@
 namespace bvhbench {
 namespace {
 
-// To add a rounded method: add a line here and its kernel code to rounded.clh. In the order of NarrowOf.
-constexpr NarrowMethod catalog[] = {
-    {"filter-f64+exact", "floats, then doubles with error bounds, then exact sums: no error", true},
-    {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
-    {"guigue-f32", "orientations in floats, as computed", false, 2, 32},
-    {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},
-    {"sat-f32", "projections onto 17 axes in floats, as computed", false, 3, 32},
-    {"ccd-1e-2", "swept: none missed, false ones within 1e-2 of the scene's size", false, 0, 32,
-     1e-2f},
-    {"ccd-1e-4", "swept: none missed, false ones within 1e-4 of the scene's size", false, 0, 32,
-     1e-4f},
-    {"ccd-1e-6", "swept: none missed, false ones within 1e-6 of the scene's size", false, 0, 32,
-     1e-6f},
-    {"within-f64", "distances: in doubles, as computed", false, 0, 64, 0, WITHIN_COMPUTED},
-    {"within-f32", "distances: in floats, as computed", false, 0, 32, 0, WITHIN_COMPUTED},
-    {"within-capsules", "distances: between capsules around the triangles, none missed", false, 0,
-     32, 0, WITHIN_CAPSULES},
-    {"within-spheres", "distances: between spheres around the triangles, none missed", false, 0, 32,
-     0, WITHIN_SPHERES},
-    {"within-rounded-boxes", "distances: between the triangles' boxes, none missed", false, 0, 32,
-     0, WITHIN_ROUNDED_BOXES},
-    {"within-boxes", "distances: padded boxes that overlap, none missed", false, 0, 32, 0,
-     WITHIN_BOXES},
-};
-
 /// Steps of a method for swept boxes; a pair that needs more is taken to touch.
 constexpr uint most_steps = 64;
 
@@ -75,57 +50,6 @@ bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, 
     if (keep_adjacent)
         shared = sharing(shared.a, shared.b);
     return corners_meet(corners_of(points, shared.a), corners_of(points, shared.b), shared.count);
-}
-
-std::span<const NarrowMethod> narrow_methods() { return catalog; }
-
-std::span<const NarrowMethod> narrow_methods(NarrowOf question)
-{
-    return std::ranges::equal_range(catalog, question, {}, &NarrowMethod::of);
-}
-
-bool NarrowMethod::misses_none() const
-{
-    return is_exact || (rounded_test == 0 && within_test != WITHIN_COMPUTED);
-}
-
-const NarrowMethod& find_narrow_method(std::string_view name)
-{
-    if (name == "exact")
-        return *std::ranges::find_if(catalog, &NarrowMethod::is_exact);
-    return find_called(catalog, name, "narrow phase", "exact");
-}
-
-void check_narrow(std::string_view name, bool keep_adjacent)
-{
-    if (name == "none")
-        return;
-    const NarrowMethod& method = find_narrow_method(name);
-    if (method.rounded_test != 0 && keep_adjacent)
-        throw BadUsage("--narrow " + std::string(name) +
-                       " cannot tell what triangles that share a corner have beyond it: it needs "
-                       "--adjacent drop");
-}
-
-void check_narrow_of(std::string_view name, NarrowOf question)
-{
-    if (name == "none")
-        return;
-    const NarrowMethod& method = find_narrow_method(name);
-    if (method.of() == question || (method.is_exact && question == NarrowOf::distance))
-        return;
-    const std::string quoted = "'" + std::string(name) + "'";
-    const std::string others = there_are(name, names_of(narrow_methods(question)));
-    if (question == NarrowOf::step)
-        throw BadUsage("swept boxes are of the way between two frames, and the narrow phase " +
-                       quoted + " looks at one moment" + others);
-    if (question == NarrowOf::distance)
-        throw BadUsage("'within' is about distances, and the narrow phase " + quoted + " is not" +
-                       others);
-    throw BadUsage("the narrow phase " + quoted +
-                   (method.of() == NarrowOf::step
-                        ? " looks at the way between two frames: it needs swept boxes"
-                        : " is about a distance: it needs 'within'"));
 }
 
 NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)

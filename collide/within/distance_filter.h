@@ -260,8 +260,8 @@ SHARED_FN uint likely_within(Corners p, Corners q, Real low, Real high, bool wit
     return verdict;
 }
 
-/// Returns the square of the distance of two triangles as computed, without a bound: 0 if the shortest way between their edges, corners and faces does
-/// not separate them.
+/// Returns the square of the distance of two triangles as computed, without a bound: 0 if the shortest way between their edges, corners and
+/// faces does not separate them.
 SHARED_FN Real computed_square(Corners p, Corners q)
 {
     const Spread spread = spread_of(p, q);
