@@ -12,7 +12,6 @@
 #include "collide/narrow/sharing.h"
 #include "collide/parameters.h"
 #include "geometry/bits.h"
-#include "geometry/names.h"
 
 namespace bvhbench {
 namespace {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "collide/narrow/narrow_words.h"
 #include "geometry/error.h"
 #include "geometry/names.h"
 
@@ -14,11 +13,7 @@ namespace {
 constexpr NarrowMethod of_distance(std::string_view name, std::string_view summary,
                                    unsigned real_bits, unsigned test)
 {
-    return {.name = name,
-            .summary = summary,
-            .is_exact = false,
-            .real_bits = real_bits,
-            .within_test = test};
+    return {name, summary, false, 0, real_bits, 0, test};
 }
 
 // To add a rounded method: add a line here and its kernel code to rounded.clh. In the order of NarrowOf.
@@ -53,11 +48,6 @@ std::span<const NarrowMethod> narrow_methods() { return catalog; }
 std::span<const NarrowMethod> narrow_methods(NarrowOf question)
 {
     return std::ranges::equal_range(catalog, question, {}, &NarrowMethod::of);
-}
-
-bool NarrowMethod::misses_none() const
-{
-    return is_exact || (rounded_test == 0 && within_test != WITHIN_COMPUTED);
 }
 
 const NarrowMethod& find_narrow_method(std::string_view name)

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "collide/narrow/narrow_words.h"
+
 namespace bvhbench {
 
 /// What a narrow phase decides: which triangles intersect at one moment, which vertices, edges and faces touch between two frames, or which
@@ -29,7 +31,7 @@ struct NarrowMethod {
                                   : NarrowOf::moment;
     }
 
-    bool misses_none() const;
+    bool misses_none() const { return rounded_test == 0 && within_test != WITHIN_COMPUTED; }
 };
 
 /// All narrow phases, in the order of tables: those of one moment, between two frames, and for distances.

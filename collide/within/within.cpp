@@ -281,8 +281,7 @@ std::vector<double> WithinPhase::distance_errors(const Input& input, const Queue
         for (std::size_t k = part * taken_at_once; k < end; ++k) {
             const Corners a = corners_of(input.points, input.faces[found[k].a]);
             const Corners b = corners_of(input.points, input.faces[found[k].b]);
-            const double off = std::abs(computed[k] - closest_points(a, b).distance);
-            errors[k] = off / options_.distance;
+            errors[k] = std::abs(computed[k] - closest_points(a, b).distance) / options_.distance;
         }
     });
     std::ranges::sort(errors);
