@@ -19,8 +19,8 @@ void write_from(std::size_t first, const std::vector<T>& all, const Buffer<T>& b
 
 }  // namespace
 
-RankContacts::RankContacts(Programs& programs, const NarrowOptions& options)
-    : programs_(programs), own_(programs, options), halo_(programs, options)
+RankContacts::RankContacts(Programs& programs, const PairTest& test)
+    : programs_(programs), own_(programs, test), halo_(programs, test)
 {}
 
 void RankContacts::take(const Share& share, Queue& queue)
@@ -32,8 +32,8 @@ void RankContacts::take(const Share& share, Queue& queue)
     has_own_ = has_halo_ = false;
     if (own_faces_ == 0)
         return;
-    own_.reserve(own_faces_);
-    halo_.reserve(first_halo_room);
+    own_.reserve(own_points_, own_faces_);
+    halo_.reserve(0, first_halo_room);
     upload_all(first_halo_room, queue);
 }
 
@@ -80,18 +80,18 @@ void RankContacts::find(const DevicePairs* own, const DevicePairs* with_halo, Qu
     has_own_ = own != nullptr;
     has_halo_ = with_halo != nullptr;
     if (has_own_)
-        find_contacts(own_, input_, own->pairs, own->counters, queue);
+        own_.decide(input_, *own, queue);
     if (has_halo_)
-        find_contacts(halo_, input_, with_halo->pairs, with_halo->counters, queue);
+        halo_.decide(input_, *with_halo, queue);
 }
 
 std::vector<Pair> RankContacts::contacts(const Queue& queue) const
 {
     std::vector<Pair> all;
     if (has_own_)
-        all = own_.contacts(queue);
+        all = own_.pairs(queue);
     if (has_halo_) {
-        const std::vector<Pair> more = halo_.contacts(queue);
+        const std::vector<Pair> more = halo_.pairs(queue);
         all.insert(all.end(), more.begin(), more.end());
     }
     return all;
@@ -99,8 +99,7 @@ std::vector<Pair> RankContacts::contacts(const Queue& queue) const
 
 std::uint64_t RankContacts::count(const Queue& queue) const
 {
-    return (has_own_ ? own_.counts(queue).contacts : 0) +
-           (has_halo_ ? halo_.counts(queue).contacts : 0);
+    return (has_own_ ? own_.count(queue) : 0) + (has_halo_ ? halo_.count(queue) : 0);
 }
 
 }  // namespace bvhbench

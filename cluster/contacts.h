@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "cluster/halo_query.h"
+#include "cluster/halo_triangle.h"
+#include "cluster/pair_test.h"
 #include "cluster/share.h"
 #include "collide/collider.h"
-#include "collide/narrow/narrow.h"
 
 namespace bvhbench {
 
@@ -18,14 +17,17 @@ struct HaloCorners {
 };
 static_assert(sizeof(HaloCorners) == 36);
 
-/// The narrow phase of a rank: decides which of its pairs intersect, those with the halo included. It works on a mesh of its own, of
+/// The narrow phase of a rank: decides which of its pairs are kept, those with the halo included. It works on a mesh of its own, of
 /// the rank's triangles followed by the halo's, which are numbered as in the pairs.
 class RankContacts {
 public:
-    RankContacts(Programs& programs, const NarrowOptions& options);
+    RankContacts(Programs& programs, const PairTest& test);
 
     /// Takes the rank's triangles and reserves memory. Never timed. Throws Unavailable.
     void take(const Share& share, Queue& queue);
+
+    /// Returns the input of the rank's triangles that its tree is built over. Does not block.
+    Input boxed(const Input& input, Queue& queue) { return own_.boxed(input, queue); }
 
     /// Takes the halo of the next frame. Blocks.
     void bring(const Share& share, std::span<const HaloTriangle> halo,
@@ -42,7 +44,7 @@ private:
     void upload_all(std::size_t halo_room, Queue& queue);
 
     Programs& programs_;
-    NarrowPhase own_, halo_;
+    PairDecider own_, halo_;
     bool has_own_ = false, has_halo_ = false;  ///< in the last call of `find`
     std::size_t own_points_ = 0, own_faces_ = 0;
     std::vector<Point> points_;

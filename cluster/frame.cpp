@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "cluster/frame_clock.h"
+#include "cluster/reach.h"
 #include "collide/device_lists.h"
 #include "collide/oracles/host_collider.h"
 #include "geometry/error.h"
@@ -26,8 +27,7 @@ std::int64_t device_ns(Queue& queue)
 }  // namespace
 
 DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
-                                   Collider& collider, bool keep_adjacent, std::string_view narrow,
-                                   uint boxes)
+                                   Collider& collider, const PairTest& test, uint boxes)
     : ranks_(ranks)
     , programs_(programs)
     , queue_(queue)
@@ -35,11 +35,12 @@ DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queu
     , beside_(programs.device())
     , builder_(builder)
     , collider_(collider)
-    , keep_adjacent_(keep_adjacent)
+    , keep_adjacent_(test.keep_adjacent)
+    , reach_(reach_of(test.distance.value_or(0)))
     , box_count_(boxes)
     , tops_(programs, boxes)
-    , leaving_(programs, !keep_adjacent || narrow != "none")
-    , halo_query_(programs, keep_adjacent)
+    , leaving_(programs, !test.keep_adjacent || test.decides())
+    , halo_query_(programs, test.keep_adjacent)
 {
     const std::string name(collider.card().name);
     if (!collider.needs_tree())
@@ -47,9 +48,8 @@ DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queu
                        " queries no tree, which triangles of other ranks are tested against");
     if (collider.keeps_tree())
         throw BadUsage("collider " + name + " follows frames, and ranks find pairs of one");
-    if (narrow != "none")
-        contacts_.emplace(programs,
-                          NarrowOptions{.method = narrow, .keep_adjacent = keep_adjacent});
+    if (test.decides())
+        contacts_.emplace(programs, test);
 }
 
 void DistributedFrame::take(Share share)
@@ -63,14 +63,13 @@ void DistributedFrame::take(Share share)
         return;
     input_ = upload(programs_.device(), queue_, share_.points, share_.faces);
     builder_.reserve(share_.triangle_count());
-    const Tree& tree = builder_.build(*input_, queue_);
+    build_tree(queue_);
     queue_.finish();
-    tree_ = dynamic_cast<const DeviceTree*>(&tree);
     if (tree_ == nullptr)
         throw BadUsage("builder " + std::string(builder_.card().name) +
                        " leaves its tree in host memory, and ranks test triangles of others on "
                        "their device");
-    collider_.reserve(tree_, *input_);
+    collider_.reserve(tree_, boxed_);
     tops_.reserve(*tree_);
     leaving_.own(share_);
     leaving_.reserve(nullptr, *input_);
@@ -80,7 +79,7 @@ void DistributedFrame::take(Share share)
             faces.push_back(share_.scene_face(k));
         halo_query_.own(std::move(faces));
     }
-    halo_query_.reserve(tree_, *input_);
+    halo_query_.reserve(tree_, boxed_);
 }
 
 void DistributedFrame::move(std::vector<Point> points)
@@ -113,7 +112,7 @@ RankFrame DistributedFrame::run()
     // The device goes on with the own triangles while the host reads which leave.
     start_selecting(wanted_from(ranks_.rank(), tops, ranks_.count()));
     if (has_tree()) {
-        collider_.query(tree_, *input_, queue_of(in_self));
+        collider_.query(tree_, boxed_, queue_of(in_self));
         queue_.cl().flush();
     }
     const std::vector<Pair> leaving = selected();
@@ -126,7 +125,7 @@ RankFrame DistributedFrame::run()
     if (has_tree()) {
         start_halo();
         while (!collider_.complete(beside_)) {
-            collider_.query(tree_, *input_, queue_of(in_self));
+            collider_.query(tree_, boxed_, queue_of(in_self));
             beside_.run_after(queue_);
         }
     }
@@ -150,24 +149,39 @@ RankFrame DistributedFrame::run()
     return frame;
 }
 
+/// Builds the tree, which is null if it is not on the device.
+void DistributedFrame::build_tree(Queue& queue)
+{
+    boxed_ = contacts_ ? contacts_->boxed(*input_, queue) : *input_;
+    tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(boxed_, queue));
+}
+
 /// Returns the boxes that this rank tells the others.
 std::vector<Aabb> DistributedFrame::build()
 {
     if (has_tree()) {
-        Queue& queue = queue_of(in_build);
-        tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(*input_, queue));
-        return tops_.read(*tree_, queue);
+        build_tree(queue_of(in_build));
+        return tops_.read(*tree_, queue_of(in_build));
     }
     std::vector<Aabb> own(box_count_, empty_box());
     if (share_.triangle_count() == 1)
-        own[0] = face_box(share_.points, share_.faces[0]);
+        own[0] = own_box(0);
     return own;
 }
 
-/// Enqueues the search for triangles that overlap the wanted boxes, and lets what follows in `beside_` run after it.
+/// Returns the box of triangle k that pairs are found by.
+Aabb DistributedFrame::own_box(std::size_t k) const
+{
+    return padded(face_box(share_.points, share_.faces[k]), reach_);
+}
+
+/// Enqueues the search for triangles whose boxes, padded if there is a distance, may overlap the wanted ones, which are. Lets what follows in
+/// `beside_` run after it.
 void DistributedFrame::start_selecting(WantedBoxes wanted)
 {
     wanted_ = std::move(wanted);
+    for (Aabb& box : wanted_.boxes)
+        box = padded_again(box, reach_);
     if (!has_tree() || wanted_.ranks.empty())
         return;
     leaving_.want(wanted_, queue_of(in_select));
@@ -221,6 +235,9 @@ void DistributedFrame::exchange(const std::vector<Pair>& leaving, RankFrame& fra
         }
     }
     exchange_by_rank<HaloTriangle>(ranks_, sent_, counts, halo_);
+    if (reach_ > 0)
+        for (HaloTriangle& one : halo_)
+            one.box = padded(one.box, reach_);
     if (contacts_)
         exchange_by_rank<HaloCorners>(ranks_, sent_corners_, counts, halo_corners_);
     frame.halo_sent = leaving.size();
@@ -236,7 +253,7 @@ void DistributedFrame::start_halo()
         halo_query_.bring(halo_, beside_);
     beside_.run_after(queue_);
     if (!halo_.empty())
-        halo_query_.query(tree_, *input_, queue_of(in_halo));
+        halo_query_.query(tree_, boxed_, queue_of(in_halo));
     queue_.cl().flush();
 }
 
@@ -247,11 +264,11 @@ void DistributedFrame::find_halo()
         return;
     if (has_tree()) {
         while (!halo_query_.complete(queue_))
-            halo_query_.query(tree_, *input_, queue_of(in_halo));
+            halo_query_.query(tree_, boxed_, queue_of(in_halo));
         return;
     }
     for (uint k = 0; k < halo_.size(); ++k)
-        if (overlap(face_box(share_.points, share_.faces[0]), halo_[k].box) &&
+        if (overlap(own_box(0), halo_[k].box) &&
             (keep_adjacent_ || !share_a_vertex(share_.scene_face(0), halo_[k].vertices)))
             pairs_of_one_.push_back({0, 1 + k});
 }

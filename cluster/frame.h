@@ -2,13 +2,13 @@
 //
 // A frame of a scene that is distributed over ranks: from each rank's triangles to all pairs of the scene, each found once.
 //
-//     build      the rank's tree, and the boxes that it tells the others
+//     build      the rank's tree, over padded boxes if there is a distance, and the boxes that it tells the others
 //     boxes      all ranks tell their boxes
 //     select     triangles that meet another rank's boxes
 //     exchange   they are sent there; meanwhile the device tests the rank's own triangles
 //     self       the rest of that query
 //     halo       triangles that came are tested against the tree
-//     narrow     if asked for: which of the pairs intersect
+//     narrow     if asked for: which of the pairs intersect, or are within the distance
 //
 // Pairs stay on the rank and device that found them.
 #pragma once
@@ -48,18 +48,17 @@ struct RankFrame {
     std::uint64_t halo_received = 0;  ///< triangles
     std::uint64_t own_pairs = 0;      ///< between triangles of the rank
     std::uint64_t halo_pairs = 0;     ///< between its triangles and others
-    std::uint64_t contacts = 0;       ///< pairs that intersect; 0 without a narrow phase
+    std::uint64_t contacts = 0;       ///< pairs that the narrow phase kept; 0 without one
 };
 
 /// One rank's part of frames over a distributed scene.
 class DistributedFrame {
 public:
     /// `builder` and `collider` serve this object alone. Throws BadUsage for a collider that queries no tree or keeps state between
-    /// frames. Without `keep_adjacent`, pairs that share a vertex are left out, as `collider` must have been told too. `narrow`: a
-    /// name of collide/narrow/narrow_methods.h, or "none". `boxes`: how many the rank tells the others, as TopBoxes takes them.
+    /// frames. `collider` must have been told about adjacent pairs as `test` is. `boxes`: how many the rank tells the others, as TopBoxes
+    /// takes them.
     DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
-                     Collider& collider, bool keep_adjacent, std::string_view narrow = "none",
-                     uint boxes = usual_top_boxes);
+                     Collider& collider, const PairTest& test, uint boxes = usual_top_boxes);
     DistributedFrame(const DistributedFrame&) = delete;
     DistributedFrame& operator=(const DistributedFrame&) = delete;
 
@@ -79,7 +78,7 @@ public:
     /// Returns the pairs that this rank found in the last frame, by scene numbers: smaller first, in no order. Blocks.
     std::vector<Pair> pairs() const;
 
-    /// Returns those of them that intersect, all if there is no narrow phase. Blocks.
+    /// Returns those of them that the narrow phase kept, all if there is none. Blocks.
     std::vector<Pair> contacts() const;
 
     /// Returns what identifies those pairs, without copying them to the host. Blocks.
@@ -107,7 +106,9 @@ private:
         in_narrow
     };
     bool has_tree() const { return share_.triangle_count() > 1; }
+    void build_tree(Queue& queue);
     std::vector<Aabb> build();
+    Aabb own_box(std::size_t k) const;
     void start_selecting(WantedBoxes wanted);
     void query_leaving();
     std::vector<Pair> selected();
@@ -130,6 +131,7 @@ private:
     Builder& builder_;
     Collider& collider_;
     bool keep_adjacent_;
+    float reach_;  ///< of padded boxes, to each side
     uint box_count_;
     std::function<void(std::string_view)> begins_ = [](std::string_view) {};
     TopBoxes tops_;
@@ -139,6 +141,7 @@ private:
     std::optional<RankContacts> contacts_;
     Share share_;
     std::optional<Input> input_;
+    Input boxed_;  ///< what the tree is over
     const DeviceTree* tree_ = nullptr;
     // Kept from frame to frame, because new pages take longer than the messages.
     std::vector<HaloTriangle> packed_, sent_;  ///< triangles that leave, as found and by rank

@@ -97,7 +97,7 @@ std::vector<Pair> DistributedFrame::right_pairs_of(const TriangleSample& sample)
         if (found == share_.ids.end() || *found != id)
             continue;
         const std::size_t k = static_cast<std::size_t>(found - share_.ids.begin());
-        own.push_back({face_box(share_.points, share_.faces[k]), id, share_.scene_face(k)});
+        own.push_back({own_box(k), id, share_.scene_face(k)});
     }
     std::vector<HaloTriangle> all;
     for (const auto& from : exchanged(ranks_, std::vector(ranks_.count(), own)))
@@ -110,7 +110,7 @@ std::vector<Pair> DistributedFrame::right_pairs_of(const TriangleSample& sample)
     for (const auto& [k, place] : selected()) {
         const HaloTriangle& other = all[place];
         const uint id = share_.ids[k];
-        if (id == other.id || (sample.has(id) && id < other.id))
+        if (id == other.id || (sample.has(id) && id < other.id) || !overlap(own_box(k), other.box))
             continue;
         if (keep_adjacent_ || !share_a_vertex(share_.scene_face(k), other.vertices))
             pairs.push_back({std::min(id, other.id), std::max(id, other.id)});

@@ -18,7 +18,7 @@ bvhbench::Input PaddedTree::build(double distance, const bvhbench::Input& input,
         builder_ = std::move(builder);
     }
     if (std::exchange(points_, 0) != points)  // set again on success
-        phase_->reserve(input);
+        phase_->reserve(points, input.triangle_count());
     points_ = points;
     bvhbench::Input padded = phase_->padded(input, device_.queue);
     tree_ = &dynamic_cast<const ImplicitTree&>(builder_->build(padded, device_.queue));

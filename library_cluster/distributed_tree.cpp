@@ -49,6 +49,7 @@ void require_same_options(const ClusterOptions& options, Ranks& ranks)
 {
     require_same("`partition`", static_cast<int>(options.partition), ranks);
     require_same("`contacts`", options.contacts ? 1 : 0, ranks);
+    require_same("`within`", options.within.value_or(-1), ranks);
     require_same("`adjacent_pairs`", options.tree.adjacent_pairs ? 1 : 0, ranks);
     require_same("`check_input`", options.tree.check_input ? 1 : 0, ranks);
 }
@@ -68,7 +69,9 @@ DistributedTree::Impl::Part::Part(Impl& impl)
           collider_for(impl.device->device, impl.options.tree.collider)
               .make(impl.device->programs, {.keep_adjacent = impl.options.tree.adjacent_pairs}))
     , frame(impl.ranks, impl.device->programs, impl.device->queue, *builder, *collider,
-            impl.options.tree.adjacent_pairs, impl.options.contacts ? "exact" : "none")
+            PairTest{.narrow = impl.options.contacts && !impl.options.within ? "exact" : "none",
+                     .distance = impl.options.within,
+                     .keep_adjacent = impl.options.tree.adjacent_pairs})
 {}
 
 DistributedTree::Impl::Impl(MPI_Comm comm, cl_command_queue queue, const ClusterOptions& asked)
@@ -133,7 +136,7 @@ void DistributedTree::Impl::require_frame(const char* what) const
 void DistributedTree::Impl::require_contacts() const
 {
     require_frame("reading contacts");
-    if (!options.contacts)
+    if (!options.contacts && !options.within)
         throw BadUsage("there are no contacts to read, because `contacts` is off");
 }
 

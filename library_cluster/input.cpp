@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include "geometry/error.h"
@@ -103,14 +105,16 @@ void require_unique(std::span<const std::uint32_t> triangles, Ranks& ranks)
         throw BadUsage("two triangles have the number " + std::to_string(least));
 }
 
-void require_same(const char* what, int value, Ranks& ranks)
+void require_same(const char* what, double value, Ranks& ranks)
 {
-    const std::vector<int> all = gathered<int>(ranks, std::span<const int>(&value, 1));
-    const auto other = std::ranges::find_if(all, [&](int one) { return one != all.front(); });
-    if (other != all.end())
-        throw BadUsage(std::string(what) + " must be the same on all ranks, and is " +
-                       std::to_string(all.front()) + " on rank 0 and " + std::to_string(*other) +
-                       " on rank " + std::to_string(other - all.begin()));
+    const std::vector<double> all = gathered<double>(ranks, std::span<const double>(&value, 1));
+    const auto other = std::ranges::find_if(all, [&](double one) { return one != all.front(); });
+    if (other == all.end())
+        return;
+    std::ostringstream text;
+    text << std::setprecision(17) << what << " must be the same on all ranks, and is "
+         << all.front() << " on rank 0 and " << *other << " on rank " << other - all.begin();
+    throw BadUsage(text.str());
 }
 
 }  // namespace bvhbench::oibvh

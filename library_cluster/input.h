@@ -32,6 +32,6 @@ void require_finite(std::span<const Point> points);
 void require_unique(std::span<const std::uint32_t> triangles, Ranks& ranks);
 
 /// Throws BadUsage, the same on all ranks, unless all pass the same value. All ranks must call.
-void require_same(const char* what, int value, Ranks& ranks);
+void require_same(const char* what, double value, Ranks& ranks);
 
 }  // namespace bvhbench::oibvh

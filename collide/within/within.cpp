@@ -27,17 +27,6 @@ constexpr uint within_group_size = 256;
 constexpr std::size_t groups_a_unit = 16;
 constexpr std::size_t taken_at_once = 1024;  ///< the same of a thread of the host
 
-/// Returns a float that is at least half of the distance, and no denormal, which a device may take for 0.
-float reach_of(double distance)
-{
-    constexpr float most = std::numeric_limits<float>::max();  // spans any two floats
-    const double half = distance / 2;
-    if (distance == 0 || half >= most)
-        return distance == 0 ? 0 : most;
-    const auto near = static_cast<float>(half);
-    return std::max(std::nextafter(near, most), std::numeric_limits<float>::min());
-}
-
 /// Returns the nearest float that is not above a positive double, or not below it, and no denormal, which a device may take for 0.
 float float_below(double value)
 {
@@ -63,6 +52,16 @@ std::pair<double, double> square_of(double distance)
 }
 
 }  // namespace
+
+float reach_of(double distance)
+{
+    constexpr float most = std::numeric_limits<float>::max();  // spans any two floats
+    const double half = distance / 2;
+    if (distance == 0 || half >= most)
+        return distance == 0 ? 0 : most;
+    const auto near = static_cast<float>(half);
+    return std::max(std::nextafter(near, most), std::numeric_limits<float>::min());  // no denormal
+}
 
 bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair pair,
                 const WithinOptions& options)
@@ -126,14 +125,14 @@ void WithinPhase::set_distance(double distance)
     std::tie(low_, high_) = square_of(distance);
 }
 
-void WithinPhase::reserve(const Input& input)
+void WithinPhase::reserve(std::size_t points, std::size_t triangles)
 {
     take_memory(arena_, programs_.device(), [&](Arena& arena) {
-        low_ends_ = arena.take<Point>(input.device_points.size(), Use::scratch);
-        high_ends_ = arena.take<Point>(input.device_points.size(), Use::scratch);
+        low_ends_ = arena.take<Point>(points, Use::scratch);
+        high_ends_ = arena.take<Point>(points, Use::scratch);
         counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch);
     });
-    const std::size_t guess = std::max<std::size_t>(1024, input.triangle_count());
+    const std::size_t guess = std::max<std::size_t>(1024, triangles);
     room_ = options_.capacity != 0 ? options_.capacity : guess;
     for (Pass& pass : passes_)
         pass.room = is_exact_ ? room_ : 1;

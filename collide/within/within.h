@@ -52,8 +52,8 @@ public:
     /// Changes the distance of the queries from here on. Throws BadUsage as the constructor.
     void set_distance(double distance);
 
-    /// Reserves memory for frames like `input`: same faces, any points. Never timed. Throws Unavailable.
-    void reserve(const Input& input);
+    /// Reserves memory to pad so many points, and for pairs of so many triangles. Never timed. Throws Unavailable.
+    void reserve(std::size_t points, std::size_t triangles);
 
     /// Memory reserved at present.
     Footprint reserved() const;
@@ -110,6 +110,9 @@ private:
     Buffer<double> distances_;
     Buffer<uint> counters_;
 };
+
+/// Returns a float that is at least half of the distance: the room to each side.
+float reach_of(double distance);
 
 /// True if two triangles are within the distance, by the host's arithmetic alone.
 bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair pair,

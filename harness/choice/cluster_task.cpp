@@ -34,7 +34,9 @@ std::vector<std::string> words_of(const Json& json)
 void check_task(const ClusterTask& task)
 {
     check_choice({task.pipeline.builder, task.pipeline.collider});
-    check_narrow_of(task.pipeline.collider.narrow, NarrowOf::moment);
+    check_narrow_of(task.pipeline.collider.narrow, task.pipeline.collider.question(false));
+    if (task.simulates != 0 && task.is_within())
+        throw BadUsage("what ranks would send is counted for overlapping boxes, without 'within'");
     find_order(task.pipeline.builder.order);
     triangles_in_name(task.scene);  // throws for a name that no scene can have
     if (!std::has_single_bit(task.boxes))
@@ -46,7 +48,7 @@ ClusterTask cluster_task_of(const Json& json, const std::string& experiment)
     refuse_unknown_keys(
         json,
         {"scene", "ranks", "simulate", "partition", "builder", "order", "collider", "adjacent",
-         "narrow", "boxes", "frames", "rebalance", "check", "samples", "share_devices"},
+         "narrow", "within", "boxes", "frames", "rebalance", "check", "samples", "share_devices"},
         "an entry of 'clusters'");
     for (const char* key : {"scene", json.contains("simulate") ? "simulate" : "ranks"})
         if (!json.contains(key))

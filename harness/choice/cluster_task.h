@@ -47,6 +47,8 @@ struct ClusterTask {
     std::vector<std::string> words = {};
 
     bool moves() const { return frames != FrameRange{}; }
+    bool is_within() const { return pipeline.collider.within != "none"; }
+    bool has_narrow() const { return is_within() || pipeline.collider.narrow != "none"; }
 };
 
 /// Returns the value of `Kind` with this name among `names`. Throws BadUsage, which says what it is of, if there is none.

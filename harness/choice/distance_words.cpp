@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "geometry/triangle.h"
-
 namespace bvhbench {
 namespace {
 
@@ -20,9 +18,8 @@ std::optional<double> parsed_distance(const std::string& word)
     return is_allowed ? std::optional(number) : std::nullopt;
 }
 
-double diagonal_of(const Scene& scene)
+double diagonal_of(const Aabb& box)
 {
-    const Aabb box = box_around(scene.frames.front(), scene.faces);
     const auto side = [](float low, float high) { return double{high} - double{low}; };
     return std::hypot(side(box.min_x, box.max_x), side(box.min_y, box.max_y),
                       side(box.min_z, box.max_z));
@@ -32,10 +29,10 @@ double diagonal_of(const Scene& scene)
 
 bool is_distance(const std::string& word) { return parsed_distance(word).has_value(); }
 
-std::optional<double> distance_of(const std::string& word, const Scene& scene)
+std::optional<double> distance_of(const std::string& word, const Aabb& around)
 {
     const std::optional<double> number = parsed_distance(word);
-    return number && word.ends_with('%') ? *number / 100 * diagonal_of(scene) : number;
+    return number && word.ends_with('%') ? *number / 100 * diagonal_of(around) : number;
 }
 
 }  // namespace bvhbench

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scenes/scene.h"
+#include "geometry/aabb.h"
 
 namespace bvhbench {
 
@@ -13,7 +13,7 @@ namespace bvhbench {
 bool is_distance(const std::string& word);
 
 /// Returns the distance for a scene, nothing for "none". A number is the nearest double; a share is multiplied in doubles by the diagonal
-/// of the box around the triangles of the scene's first frame, whichever frames are asked for.
-std::optional<double> distance_of(const std::string& word, const Scene& scene);
+/// of `around`, the box around the triangles of the scene's first frame, whichever frames are asked for.
+std::optional<double> distance_of(const std::string& word, const Aabb& around);
 
 }  // namespace bvhbench

@@ -39,7 +39,7 @@ public:
         app.add_option("--collider", choice_.collider.name, "a name of `list colliders`")
             ->capture_default_str();
         add_choices(app, choice_, [](const Choice& option) {
-            return option.key == "adjacent" || option.key == "narrow";
+            return option.key == "adjacent" || option.key == "narrow" || option.key == "within";
         });
         app.add_option("--boxes", task_.boxes,
                        "that a rank tells the others, of a level of its tree: a power of two")
@@ -62,7 +62,8 @@ public:
                      "let ranks of a host share a device; for tests, gives no times");
         app.add_option("--json", json_, "write the result file");
         app.add_option("--pairs", pairs_, "write the pairs: .csv, or .bin of 32-bit ids");
-        app.add_option("--contacts", contacts_, "the same of the pairs that intersect");
+        app.add_option("--contacts", contacts_,
+                       "the same of those that intersect or are within the distance");
     }
 
     int run(const Invocation& invocation) override
@@ -114,8 +115,11 @@ private:
         for (const std::string& path : {pairs_, contacts_})
             if (!path.empty())
                 check_pairs_path(path, {});
-        if (task_.wants_contacts && task_.pipeline.collider.narrow == "none")
-            throw BadUsage("--contacts takes a narrow phase: --narrow exact");
+        if (task_.wants_contacts && !task_.has_narrow())
+            throw BadUsage("--contacts takes a narrow phase: --narrow exact, or --within");
+        if (task_.wants_pairs && task_.is_within())
+            throw BadUsage(
+                "--within finds pairs of triangles and none of boxes: --contacts, not --pairs");
         const std::optional<unsigned> started = ranks_started();
         if (!frames_.empty())
             task_.frames = frame_range(frames_);
@@ -170,7 +174,10 @@ private:
                            Resuming{}, {});
         const Output pairs = is_first ? Output(pairs_, "--pairs", rules) : Output();
         const Output contacts = is_first ? Output(contacts_, "--contacts", rules) : Output();
-        PairsFile pairs_file(pairs, false), contacts_file(contacts, false);
+        PairsFile pairs_file(pairs, false),
+            contacts_file(
+                contacts, false,
+                task_.is_within() ? PairsFile::With::distances : PairsFile::With::nothing);
         session.check_clocks();
         Json facts = run_facts(session.device(), invocation.words);
         const ClusterFound found = run_cluster(ranks, session, task_);

@@ -58,22 +58,24 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
     return std::to_string(devices[ranks.local_rank() % devices.size()]);
 }
 
-ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task)
+ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& asked)
 {
     ClusterFound found;
     ClusterResult& result = found.result;
-    result.task = task;
+    const ClusterTask& task = result.task = asked;
     result.task.ranks = ranks.count();
     if (task.moves()) {
-        run_cluster_frames(ranks, session, task, found);
+        run_cluster_frames(ranks, session, found);
         return found;
     }
     ClusterEvidence evidence;
     bool by_one_device = task.check == ClusterCheck::one_device;
     {  // frees the device for the verdict
+        Share share = partitioned_share(first_share(task, session, ranks, result.scene),
+                                        task.partition, ranks, result.partition_ns);
+        resolve_distance(result.task, box_around(share.points, share.faces), ranks);
         ClusterPart part(ranks, session, task);
-        part.take(partitioned_share(first_share(task, session, ranks, result.scene), task.partition,
-                                    ranks, result.partition_ns));
+        part.take(std::move(share));
         part.run();  // buffers grow
         for (int k = 0; k < task.samples; ++k)
             part.own.frames.push_back(part.run());
@@ -81,10 +83,10 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
         result.pairs = evidence.facts = facts_of_all(part.frame.facts(), ranks);
         if (task.wants_pairs || result.pairs.count <= task.most_gathered)
             evidence.list.emplace(pairs_at_first(ranks, part.frame.pairs()));
-        if (has_narrow(task))
+        if (task.has_narrow())
             result.contacts = evidence.contacts =
                 facts_of_all(facts_of(part.frame.contacts()), ranks);
-        if (has_narrow(task) &&
+        if (task.has_narrow() &&
             (task.wants_contacts || evidence.contacts->count <= task.most_gathered))
             evidence.contact_list.emplace(pairs_at_first(ranks, part.frame.contacts()));
         const std::uint64_t triangles = sum_of_all(part.own.triangles, ranks);
@@ -107,7 +109,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
             partitioned_share(first_share(task, session, ranks, facts), other, ranks, took_ns));
         part.run();
         evidence.other_partition = facts_of_all(part.frame.facts(), ranks);
-        if (has_narrow(task))
+        if (task.has_narrow())
             evidence.other_contacts = facts_of_all(facts_of(part.frame.contacts()), ranks);
     }
     if (ranks.rank() != first_rank)

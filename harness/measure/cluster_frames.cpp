@@ -46,13 +46,17 @@ Check verdict_of_all(const std::vector<ClusterEvidence>& evidence, const Scene& 
 
 }  // namespace
 
-void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask& task,
-                        ClusterFound& found)
+void run_cluster_frames(HostedRanks& ranks, Session& session, ClusterFound& found)
 {
     const bool is_first = ranks.rank() == first_rank;
     ClusterResult& result = found.result;
-    if (is_first)
+    const ClusterTask& task = result.task;
+    Aabb around = empty_box();
+    if (is_first) {
         found.scene = whole_scene(task, session);
+        around = box_around(found.scene.frames.front(), found.scene.faces);
+    }
+    resolve_distance(result.task, around, ranks);
     const std::uint64_t there = sum_of_all(found.scene.frames.size(), ranks);
     const std::size_t end = task.frames.end == 0 ? there : task.frames.end;
     if (end > there || task.frames.first >= end)
@@ -87,7 +91,7 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask&
             ClusterEvidence& of_frame = evidence.emplace_back();
             one.pairs = of_frame.facts = facts_of_all(part.frame.facts(), ranks);
             of_frame.list.emplace(pairs_at_first(ranks, part.frame.pairs()));
-            if (has_narrow(task)) {
+            if (task.has_narrow()) {
                 const std::vector<Pair> contacts = part.frame.contacts();
                 one.contacts = of_frame.contacts = facts_of_all(facts_of(contacts), ranks);
                 of_frame.contact_list.emplace(pairs_at_first(ranks, contacts));

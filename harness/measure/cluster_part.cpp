@@ -7,6 +7,7 @@
 #include "cluster/rebalance.h"
 #include "geometry/host_memory.h"
 #include "harness/base/test_hooks.h"
+#include "harness/choice/distance_words.h"
 #include "harness/measure/engine.h"
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
@@ -39,6 +40,14 @@ Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, Scene
     facts.triangles = scene.triangle_count();
     facts.vertices = std::ssize(scene.frames.front());
     return dealt(scene.frames.front(), scene.faces, first_rank, ranks);
+}
+
+void resolve_distance(ClusterTask& task, const Aabb& own, Ranks& ranks)
+{
+    float ends[] = {own.min_x, own.min_y, own.min_z, -own.max_x, -own.max_y, -own.max_z};
+    ranks.least(ends);
+    task.pipeline.collider.distance = distance_of(
+        task.pipeline.collider.within, {ends[0], ends[1], ends[2], -ends[3], -ends[4], -ends[5]});
 }
 
 Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& took_ns)

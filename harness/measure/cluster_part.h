@@ -44,7 +44,14 @@ inline std::uint64_t sum_of_all(std::uint64_t own, Ranks& ranks)
     return own;
 }
 
-inline bool has_narrow(const ClusterTask& task) { return task.pipeline.collider.narrow != "none"; }
+/// Computes the distance that the task asks for, if it does, of a scene of which each rank has what is in its box `own`.
+void resolve_distance(ClusterTask& task, const Aabb& own, Ranks& ranks);
+
+/// Returns what a rank's narrow phase decides.
+inline PairTest test_of(const ColliderChoice& collider)
+{
+    return {collider.narrow, collider.distance, collider.keep_adjacent};
+}
 
 /// Calls `work` under the limits of a rank.
 template <class Work>
@@ -62,7 +69,7 @@ public:
         , builder_(make_builder(task.pipeline.builder, session.programs()))
         , collider_(make_collider(task.pipeline.collider, session.programs()))
         , frame(ranks, session.programs(), session.queue(), *builder_, *collider_,
-                task.pipeline.collider.keep_adjacent, task.pipeline.collider.narrow, task.boxes)
+                test_of(task.pipeline.collider), task.boxes)
     {
         frame.tell_stages([rank = ranks.rank()](std::string_view name) { stop_at(name, rank); });
     }
@@ -112,10 +119,9 @@ public:
     ClusterRank own;  ///< without names
 };
 
-/// Runs the frames `task.frames` of a scene that moves, each once: triangles stay on their ranks, points move, and the scene is cut
+/// Runs the frames of the task in `found`, of a scene that moves, each once: triangles stay on their ranks, points move, and the scene is cut
 /// anew after a frame in which a rank had too much work. Each frame's answer is compared with that of one device. Fills `found`,
 /// at the first rank only. Throws as run_cluster does, and BadUsage for frames that the scene lacks.
-void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask& task,
-                        ClusterFound& found);
+void run_cluster_frames(HostedRanks& ranks, Session& session, ClusterFound& found);
 
 }  // namespace bvhbench

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/cluster_verdict.h"
 
-#include "collide/narrow/narrow.h"
 #include "collide/oracles/pair_sets.h"
 #include "geometry/error.h"
 #include "harness/judge/pair_counts.h"
+#include "harness/measure/cluster_part.h"
 
 namespace bvhbench {
 namespace {
@@ -37,9 +37,17 @@ Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Poi
         const auto builder = make_builder(pipeline.builder, session.programs());
         const auto collider = make_collider(pipeline.collider, session.programs());
         builder->reserve(input.triangle_count());
-        const Tree& tree = builder->build(input, queue);
-        collider->reserve(&tree, input);
-        find_pairs(*collider, &tree, input, queue);
+        const PairTest test = test_of(pipeline.collider);
+        std::optional<PairDecider> decider;
+        Input boxed = input;
+        if (test.decides()) {
+            decider.emplace(session.programs(), test);
+            decider->reserve(points.size(), faces.size());
+            boxed = decider->boxed(input, queue);
+        }
+        const Tree& tree = builder->build(boxed, queue);
+        collider->reserve(&tree, boxed);
+        find_pairs(*collider, &tree, boxed, queue);
         queue.finish();
         const PairFacts right = facts_on_device(session.programs(), collider->device_pairs(queue),
                                                 collider->counts(queue).pairs, queue);
@@ -47,14 +55,10 @@ Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Poi
             (evidence.list && *evidence.list != PairList(collider->pairs(queue))))
             check.find_wrong("it finds " + facts_text(right) + ", not " +
                              facts_text(evidence.facts));
-        if (!evidence.contacts)
+        if (!decider)
             return check;
-        NarrowPhase narrow(session.programs(), {.method = pipeline.collider.narrow,
-                                                .keep_adjacent = pipeline.collider.keep_adjacent});
-        narrow.reserve(input.triangle_count());
-        const DevicePairs pairs = collider->device_pairs(queue);
-        find_contacts(narrow, input, pairs.pairs, pairs.counters, queue);
-        std::vector<Pair> contacts = narrow.contacts(queue);
+        decider->decide(input, collider->device_pairs(queue), queue);
+        std::vector<Pair> contacts = decider->pairs(queue);
         const PairFacts facts = facts_of(contacts);
         if (*evidence.contacts != facts ||
             (evidence.contact_list && *evidence.contact_list != PairList(std::move(contacts))))

@@ -37,7 +37,8 @@ std::vector<PipelineState> pipelines_over(const CollideTask& task, const Scene& 
         all.push_back({pipeline});
         ColliderChoice& collider = all.back().choice.collider;
         collider.filter = filter;
-        collider.distance = distance_of(collider.within, scene);
+        collider.distance =
+            distance_of(collider.within, box_around(scene.frames.front(), scene.faces));
         if (collider.trees != TreeOver::automatic)
             continue;
         collider.trees = scene.later.empty()

@@ -84,7 +84,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
                                                           .method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,
                                                           .form = collider.form});
-        within_->reserve(input);
+        within_->reserve(input.device_points.size(), input.triangle_count());
     } else if (collider.narrow != "none" && !collider_->finds_contacts()) {
         narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,

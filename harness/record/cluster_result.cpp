@@ -105,6 +105,7 @@ Cell cell_of(const ClusterResult& result)
         ranks.push_back(rank_json(rank, has_times));
     Cell cell = cell_of(result.task, result.scene, std::move(ranks));
     cell.check = result.check;
+    cell.within_distance = result.task.pipeline.collider.distance;
     Json& json = cell.cluster;
     if (has_times) {
         json["partition_ns"] = result.partition_ns;

@@ -15,9 +15,10 @@ def text(run: results.Run) -> str:
 
 def one(cell: Json) -> str:
     """Returns the ranks, the stages, and lines that sum up."""
+    asked = rank_files.asked_of(cell)
     head = (f"{cell['scene']['name']}: {counted(cell['scene']['triangles'], 'triangle')}, "
-            "{collider} over {builder} along {order}, adjacent {adjacent}, narrow {narrow}, ".format_map(rank_files.asked_of(cell))
-            + f"{counted(len(cell['ranks']), 'rank')}, {cell['partition']}\n")
+            "{collider} over {builder} along {order}, adjacent {adjacent}, narrow {narrow}, ".format_map(asked)
+            + (f"within {asked['within']}, " if asked["within"] != "none" else "") + f"{counted(len(cell['ranks']), 'rank')}, {cell['partition']}\n")
     lines = [f"halo: {100 * cell['halo_share']:.1f} % of the triangles; imbalance: {cell['imbalance']:.3f} of the mean\n"]
     if "frame_ns" in cell:
         lines += [f"frame: {duration(cell['frame_ns'])} by the host's clock, median of "

@@ -51,8 +51,8 @@ def asked_of(cell: Json) -> Json:
     options = collider.get("options", {})
     return {"ranks": cell["ranks_count"], "partition": cell["partition"], "builder": builder.get("name"),
             "order": builder.get("options", {}).get("order"), "collider": collider.get("name"), "adjacent": options.get("adjacent"),
-            "narrow": options.get("narrow", "none"), "boxes": cell["boxes_count"], "frames": len(cell.get("frames", [])),
-            "devices": "shared" if cell.get("shares_devices") else "one a rank"}
+            "narrow": options.get("narrow", "none"), "within": options.get("within", "none"), "boxes": cell["boxes_count"],
+            "frames": len(cell.get("frames", [])), "devices": "shared" if cell.get("shares_devices") else "one a rank"}
 
 
 def stage_times(cell: Json, clock: str = "host_ns") -> dict[str, list[float]]:

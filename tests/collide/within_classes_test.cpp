@@ -39,7 +39,7 @@ double least_distance(const Mesh& mesh, Pair pair)
 PairList found(const Candidates& candidates, const WithinOptions& options)
 {
     WithinPhase phase(bench().programs, options);
-    phase.reserve(candidates.input);
+    phase.reserve(candidates.input.device_points.size(), candidates.input.triangle_count());
     do
         phase.query(candidates.input, {candidates.on_device, candidates.counters}, bench().queue);
     while (!phase.complete(bench().queue));

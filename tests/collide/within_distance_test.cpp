@@ -37,7 +37,7 @@ Answer asked(const Standing& standing, std::string_view name, const WithinOption
                                       .form = options.form,
                                       .capacity = options.capacity});
     WithinPhase phase(session().programs(), options);
-    phase.reserve(standing.input);
+    phase.reserve(standing.input.device_points.size(), standing.input.triangle_count());
     collider->reserve(standing.tree, standing.input);
     Answer answer;
     do {

@@ -129,15 +129,21 @@ def test_lists_are_those_of_collide():
             assert abs(document["halo_share"] - sent / document["scene"]["triangles"]) < 1e-9
 
 
-def test_contacts_are_those_of_collide():
-    narrow = ("--narrow", "exact", "--adjacent", "drop", "--samples", "1", "--force")
-    expect(0, "collide", "--collider", "leaf", "--scene", "soup:5000", *narrow, "--contacts", "k1.csv")
-    expect(0, "cluster", "soup:5000", "--ranks", "3", "--share-devices", *narrow, "--contacts", "kc.csv", "--json", "kc.json",
-           says="agrees with one device")
-    assert pathlib.Path("kc.csv").read_text() == pathlib.Path("k1.csv").read_text()
-    document = result("kc.json")
-    assert document["contacts_count"] == sum(row["contacts_count"] for row in document["ranks"]) > 100
-    assert document["check"]["contacts_hash"]
+def test_contacts_and_pairs_within_a_distance_are_those_of_collide():
+    for asked in (("--narrow", "exact"), ("--within", "1%")):
+        narrow = (*asked, "--adjacent", "drop", "--samples", "1", "--force")
+        expect(0, "collide", "--collider", "leaf", "--scene", "soup:5000", *narrow, "--contacts", "k1.csv")
+        expect(0, "cluster", "soup:5000", "--ranks", "3", "--share-devices", *narrow, "--contacts", "kc.csv", "--json", "kc.json",
+               says="agrees with one device")
+        assert pathlib.Path("kc.csv").read_text() == pathlib.Path("k1.csv").read_text()
+        document = result("kc.json")
+        assert document["contacts_count"] == sum(row["contacts_count"] for row in document["ranks"]) > 100
+        assert document["check"]["contacts_hash"] and ("within_distance" in document) == (asked[0] == "--within")
+    words = ("cluster", "cloth-ball:3000:6", "--ranks", "2", *SHARED, "--within", "1%", "--adjacent", "drop")
+    expect(0, *words, "--frames", "0:2", "--json", "k.json", says="agrees with one device")
+    assert len({frame["contacts_count"] for frame in result("k.json")["frames"]}) == 2
+    expect(0, *words, "--check", "partitions", says="agrees with the other partition")
+    expect(2, *words[:2], "--simulate", "2", "--within", "1%", says="what ranks would send is counted for overlapping boxes")
 
 
 def test_frames_keep_their_parts_until_work_is_uneven():
@@ -192,6 +198,7 @@ def test_what_is_wrong_is_said_once():
     expect(2, "cluster", "torus:2000", says="--ranks says how many")
     expect(2, *few, "--partition", "rbc", says="no partition is called 'rbc'; there are: rcb, curve")
     expect(2, *few, "--contacts", "c.csv", says="--contacts takes a narrow phase: --narrow exact")
+    expect(2, *few, "--within", "1%", "--pairs", "c.csv", says="--within finds pairs of triangles and none of boxes")
     expect(2, *few, "--check", "nothing", says="no check is called 'nothing'; there are: auto, one-device, partitions")
     expect(2, *few, "--builder", "karass", says="karras")
     expect(2, "cluster", "bunnny", "--ranks", "2", says="no scene is called 'bunnny'")

@@ -119,6 +119,19 @@ TEST_F(ClusterLibrary, HasThePairsOfATreeOnAnyQueue)
     }
 }
 
+TEST_F(ClusterLibrary, HasThePairsThatATreeFindsWithinADistance)
+{
+    const LibraryMesh mesh = scene_mesh("soup:2000");
+    for (const double distance : {0.0, 0.01, 0.1}) {
+        DistributedTree tree(MPI_COMM_WORLD, caller->queue, {.within = distance});
+        tree.distribute(scattered_part(mesh).view());
+        const FrameCounts counts = tree.find_pairs();
+        const auto right = pairs_of_one(*caller, mesh, true, distance);
+        EXPECT_EQ(counts.all_contacts, right.size());
+        EXPECT_EQ(tree.gather_contacts(), ranks->rank() == 0 ? right : std::vector<oibvh::Pair>());
+    }
+}
+
 TEST_F(ClusterLibrary, FollowsPointsAndCutsAnew)
 {
     const ClusterOptions options{.contacts = true};

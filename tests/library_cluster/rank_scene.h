@@ -60,13 +60,13 @@ inline OwnTriangles scattered_part(const LibraryMesh& mesh)
     return own_part(mesh, [](std::uint32_t k) { return k % ranks->count() == ranks->rank(); });
 }
 
-/// Returns what one device finds in the mesh, sorted.
+/// Returns what one device finds in the mesh, sorted: pairs, or those within a distance.
 inline std::vector<oibvh::Pair> pairs_of_one(const Caller& caller, const LibraryMesh& mesh,
-                                             bool adjacent_pairs)
+                                             bool adjacent_pairs, std::optional<double> within = {})
 {
     oibvh::Tree tree(caller.queue, {.adjacent_pairs = adjacent_pairs});
     tree.build(mesh.on_host());
-    tree.find_pairs();
+    within ? tree.find_within(*within) : tree.find_pairs();
     std::vector<oibvh::Pair> pairs = tree.read_pairs();
     std::ranges::sort(pairs);
     return pairs;

@@ -18,6 +18,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,13 +28,16 @@ namespace bvhbench::oibvh {
 /// parts whose sizes differ by one triangle at most. curve: ranges of a Hilbert curve.
 enum class Partition { rcb, curve };
 
-/// Options of a rank. `partition`, `contacts`, `tree.adjacent_pairs` and `tree.check_input` must be the same on all ranks.
+/// Options of a rank. `partition`, `contacts`, `within`, `tree.adjacent_pairs` and `tree.check_input` must be the same on all ranks.
 struct ClusterOptions {
     Options tree = {};          ///< builder, order, collider, pairs and checks, as of a Tree
     DeviceOptions device = {};  ///< of this rank's device
     Partition partition = Partition::rcb;
     /// Whether a frame also decides which of the pairs intersect: exactly, for the coordinates as stored (docs/contacts.md).
     bool contacts = false;
+    /// If set, in the unit of the points: a frame decides in place of that which pairs are at most so far apart, as Tree::find_within does. It
+    /// counts and reads them as contacts; `pairs` are then candidates, those of boxes with room for the distance.
+    std::optional<double> within = {};
 };
 
 /// The part of a scene that a rank has before it is distributed; any number of triangles, none included. Each triangle and each vertex
@@ -49,8 +53,9 @@ struct RankTriangles {
 
 /// What a frame found, and what this rank sent for it.
 struct FrameCounts {
-    std::uint64_t pairs = 0;         ///< found by this rank
-    std::uint64_t contacts = 0;      ///< those of them that intersect; 0 without `contacts`
+    std::uint64_t pairs = 0;  ///< found by this rank
+    std::uint64_t contacts =
+        0;  ///< those of them that were asked for; 0 without `contacts` or `within`
     std::uint64_t all_pairs = 0;     ///< found by all ranks
     std::uint64_t all_contacts = 0;  ///< the same of contacts
     std::uint64_t sent =
@@ -104,7 +109,7 @@ public:
     /// `rebalance`, and any other Error.
     std::vector<Pair> read_pairs() const;
 
-    /// Returns those of them that intersect. Waits. Throws as `read_pairs`, and BadInput without `ClusterOptions::contacts`.
+    /// Returns those of them that intersect, or are within the distance. Waits. Throws as `read_pairs`, and BadInput if neither was asked for.
     std::vector<Pair> read_contacts() const;
 
     /// Returns the pairs of all ranks on rank 0, sorted, and none elsewhere. All ranks. Throws as `read_pairs`.
