@@ -173,6 +173,10 @@ private:
                 give_extent(first, count, around);
             object_boxes_[k] = around;
         });
+        // Not inside of the loops: TBB has crashed in cancelling them, among what Embree had left there.
+        if (!std::ranges::all_of(object_boxes_, is_in_range))
+            for (std::size_t i = 0; i < input.faces.size(); ++i)
+                require_in_range(leaf_box(input, input.faces[i]), i);
     }
 
     /// Computes the boxes of a run of triangles and returns the box around them.
@@ -182,7 +186,6 @@ private:
         bool is_rounded = false;
         for (std::size_t i = begin; i < end; ++i) {
             const Aabb box = leaf_box(input, input.faces[i]);
-            require_in_range(box, i);
             boxes_[i] = rounded_outward(box);
             is_rounded = is_rounded || sides_of(box) != sides_of(boxes_[i]);
             around = merged(around, boxes_[i]);

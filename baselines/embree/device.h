@@ -23,13 +23,18 @@ inline std::array<float, 6> sides_of(const Aabb& box)
     return std::bit_cast<std::array<float, 6>>(box);
 }
 
-/// Throws Unavailable for a triangle whose coordinates are so large that Embree silently drops it.
+/// False for coordinates so large that Embree silently drops triangles that have them.
+inline bool is_in_range(const Aabb& box)
+{
+    return std::ranges::all_of(sides_of(box), [](float x) { return std::abs(x) < 1.844e18f; });
+}
+
+/// Throws Unavailable for a triangle that Embree drops.
 inline void require_in_range(const Aabb& box, std::size_t triangle)
 {
-    for (const float x : sides_of(box))
-        if (!(std::abs(x) < 1.844e18f))
-            throw Unavailable("Embree takes no coordinates beyond 1.8e18, and triangle " +
-                              std::to_string(triangle) + " has some");
+    if (!is_in_range(box))
+        throw Unavailable("Embree takes no coordinates beyond 1.8e18, and triangle " +
+                          std::to_string(triangle) + " has some");
 }
 
 struct EmbreeRelease {
