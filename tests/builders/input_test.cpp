@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/error.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
@@ -20,12 +21,7 @@ std::string refusal(const Device& device, const TwoTriangles& mesh,
                     const std::vector<FaceRange>& objects = {})
 {
     const Queue queue(device);
-    try {
-        upload(device, queue, mesh.points, mesh.faces, objects);
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return {};
+    return refusal_of([&] { upload(device, queue, mesh.points, mesh.faces, objects); });
 }
 
 TEST(Input, IsRefusedInOneSentenceWhereAPartIsMoreThanAnAllocation)

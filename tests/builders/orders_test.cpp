@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/error.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
@@ -89,15 +90,10 @@ TEST(Orders, OnTheStretchedGridCutEveryAxisOfTheSceneAlike)
 
 TEST(Orders, NamesThoseThereAreWhenAskedForAnother)
 {
-    try {
-        find_order("spiral");
-        FAIL();
-    } catch (const BadUsage& error) {
-        std::string expected = "no order is called 'spiral'; there are:";
-        for (const OrderEntry& order : order_catalog())
-            expected += (&order == &order_catalog().front() ? " " : ", ") + std::string(order.name);
-        EXPECT_EQ(error.what(), expected);
-    }
+    std::string expected = "no order is called 'spiral'; there are:";
+    for (const OrderEntry& order : order_catalog())
+        expected += (&order == &order_catalog().front() ? " " : ", ") + std::string(order.name);
+    EXPECT_EQ(refusal_of<BadUsage>([] { find_order("spiral"); }), expected);
 }
 
 }  // namespace

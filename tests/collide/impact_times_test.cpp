@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "collide/oracles/exact_reference.h"
 #include "collide/oracles/swept_reference.h"
+#include "tests/needing.h"
 
 namespace bvhbench {
 namespace {
@@ -119,14 +119,7 @@ void expect_time(const std::optional<ImpactTime>& found, std::optional<double> t
     EXPECT_LE(found->no_later - found->no_sooner, 1e-12);
 }
 
-class ImpactTimes : public testing::Test {
-protected:
-    void SetUp() override
-    {
-        if (!has_exact_reference)
-            GTEST_SKIP() << "built without CGAL: there is no reference";
-    }
-};
+class ImpactTimes : public Needing<testing::Test, cgal_absent> {};
 
 TEST_F(ImpactTimes, AreThoseByHandAtAnyScale)
 {

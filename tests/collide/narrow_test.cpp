@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint pairs_a_class = 20'000;
 
-class Narrow : public WithCgal<testing::TestWithParam<std::tuple<KernelForm, bool>>> {
+class Narrow : public Needing<testing::TestWithParam<std::tuple<KernelForm, bool>>, cgal_absent> {
 protected:
     NarrowOptions options(bool keep_adjacent) const
     {

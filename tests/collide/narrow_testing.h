@@ -12,9 +12,9 @@
 #include "collide/counters.h"
 #include "collide/device_lists.h"
 #include "collide/narrow/narrow.h"
-#include "collide/oracles/exact_reference.h"
 #include "scenes/generate/pair_classes.h"
 #include "tests/builders/stage_testing.h"
+#include "tests/needing.h"
 
 namespace bvhbench {
 
@@ -43,19 +43,8 @@ struct Candidates {
     }
 };
 
-/// Tests that compare with CGAL, and are skipped without it.
-template <class Test>
-class WithCgal : public Test {
-protected:
-    void SetUp() override
-    {
-        if (!has_exact_reference)
-            GTEST_SKIP() << "built without CGAL: nothing is compared";
-    }
-};
-
 /// Tests of one class of pairs each.
-class OfAClass : public WithCgal<testing::TestWithParam<PairClass>> {};
+class OfAClass : public Needing<testing::TestWithParam<PairClass>, cgal_absent> {};
 
 struct ClassName {
     std::string operator()(const testing::TestParamInfo<PairClass>& of) const

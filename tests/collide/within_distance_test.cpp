@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Pairs of triangles within a distance are those of CGAL's exact distances, over boxes that the host pads.
-#include "collide/oracles/exact_reference.h"
 #include "collide/within/within.h"
 #include "scenes/generate/pair_classes.h"
 #include "tests/collide/many_objects.h"
+#include "tests/needing.h"
 
 namespace bvhbench {
 namespace {
@@ -87,14 +87,7 @@ std::vector<double> distances_of(double unit)
     return all;
 }
 
-class WithinDistance : public testing::Test {
-protected:
-    void SetUp() override
-    {
-        if (!has_exact_reference)
-            GTEST_SKIP() << "built without CGAL: nothing is compared";
-    }
-};
+class WithinDistance : public Needing<testing::Test, cgal_absent> {};
 
 class WithinDistanceTest
     : public WithinDistance,

@@ -29,10 +29,10 @@ TEST(OpenDevice, TakesAnIndexOrWordsInAnyCaseAndOrder)
 TEST(OpenDevice, SaysWhatWasAskedAndWhatThereIs)
 {
     for (const std::string words : {"no such device", "77"}) {
-        expect_sentence(message_of([&] { open_device(words); }),
+        expect_sentence(refusal_of([&] { open_device(words); }),
                         {"'" + words + "'", device_names()[0]});
         setenv("BVHBENCH_DEVICE", words.c_str(), 1);
-        expect_sentence(message_of([&] { open_device(""); }),
+        expect_sentence(refusal_of([&] { open_device(""); }),
                         {"'" + words + "' of BVHBENCH_DEVICE", device_names()[0]});
         EXPECT_NO_THROW(open_device("0")) << "words come before the variable";
         unsetenv("BVHBENCH_DEVICE");
@@ -71,13 +71,13 @@ TEST(Device, CountsWhatIsTakenUntilItIsGivenBack)
 {
     Device device = open_device("");
     EXPECT_NO_THROW(device.take_memory(1024));
-    expect_sentence(message_of([&] { device.take_memory(std::size_t{1} << 60); }),
+    expect_sentence(refusal_of([&] { device.take_memory(std::size_t{1} << 60); }),
                     {"1152921504606846976 bytes"});
     device.memory_limit = 1000;
     MemoryShare most = device.take_memory(600);
     const MemoryShare rest = Device(device).take_memory(400);
     EXPECT_EQ(*device.taken, 1000u);
-    expect_sentence(message_of([&] { device.take_memory(1); }),
+    expect_sentence(refusal_of([&] { device.take_memory(1); }),
                     {"out of device memory: 1 bytes", "beside 1000 taken", "gives 1000"});
     most.reset();
     EXPECT_EQ(*device.taken, 400u);

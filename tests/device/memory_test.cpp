@@ -83,7 +83,7 @@ TEST(Arena, AllocatesPieceByPieceWhatTheDeviceDoesNotAtOnce)
 
     device.allocation_limit = 3999;
     Arena small = Arena::reserved(device, measuring.used());
-    expect_sentence(message_of([&] { take(small); }),
+    expect_sentence(refusal_of([&] { take(small); }),
                     {"4000 bytes are needed in one piece", "gives 3999"});
 }
 

@@ -23,7 +23,7 @@ TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
     EXPECT_EQ(sources.flatten({"b.h", "k.cl"}),
               "#line 1 \"b.h\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"b.h\"\nint b;\n"
               "#line 1 \"k.cl\"\n#line 2 \"k.cl\"\n#line 3 \"k.cl\"\nint k;\n");
-    EXPECT_EQ(message_of([&] { sources.flatten({"gone.cl"}); }),
+    EXPECT_EQ(refusal_of([&] { sources.flatten({"gone.cl"}); }),
               "kernel source 'gone.h' is not there");
 }
 

@@ -12,6 +12,7 @@
 #include "device/program.h"
 #include "device/queue.h"
 #include "geometry/error.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 
@@ -58,17 +59,6 @@ protected:
     Programs programs{device};
     Queue queue{device};
 };
-
-/// Returns the message of the Unavailable that `action` throws, or an empty string if it throws none.
-std::string message_of(const auto& action)
-{
-    try {
-        action();
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return {};
-}
 
 /// Expects the message to be one line that contains all `parts`.
 inline void expect_sentence(const std::string& message, std::initializer_list<std::string> parts)

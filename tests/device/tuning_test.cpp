@@ -72,7 +72,7 @@ TEST(Device, RefusesGroupsThatItDoesNotHaveInOneSentence)
     const std::size_t most = device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
     const std::size_t local = device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
     const auto refusal = [&](std::size_t group_size, std::size_t local_bytes) {
-        return message_of([&] { device.require_group("a part", group_size, local_bytes); });
+        return refusal_of([&] { device.require_group("a part", group_size, local_bytes); });
     };
     EXPECT_EQ(refusal(most, local), "");
     EXPECT_EQ(refusal(most + 1, 0), "a part needs groups of " + std::to_string(most + 1) +

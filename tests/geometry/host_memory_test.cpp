@@ -10,6 +10,7 @@
 #include <string>
 
 #include "geometry/error.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
@@ -105,16 +106,12 @@ TEST(HostMemory, IsRefusedWithWhatIsNeededAndGiven)
 {
     EXPECT_NO_THROW(require_host_memory("a little", 1000));
     EXPECT_GE(host_memory_facts().predicted, 1000u);
-    try {
-        require_host_memory("too much", std::uint64_t{1} << 60);
-        FAIL();
-    } catch (const Unavailable& error) {
-        const std::string message = error.what();
-        EXPECT_TRUE(message.starts_with(
-            "out of host memory: too much takes about 1152921504606846976 bytes, and "
-            "the host gives "))
-            << message;
-    }
+    const std::string message =
+        refusal_of([] { require_host_memory("too much", std::uint64_t{1} << 60); });
+    EXPECT_TRUE(message.starts_with(
+        "out of host memory: too much takes about 1152921504606846976 bytes, and "
+        "the host gives "))
+        << message;
 }
 
 TEST(HostMemory, IsLimitedWithWhatTheProcessHas)

@@ -63,9 +63,7 @@ def result(slower: float) -> str:
 
 class TimeGate(unittest.TestCase):
     def setUp(self) -> None:
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.environment = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
         self.environment |= {"HOME": str(self.folder), "GIT_CONFIG_NOSYSTEM": "1", "BASE": "", "PYTHONDONTWRITEBYTECODE": "1"}
         self.run_in(self.folder, "git config --global user.name tester; git config --global user.email tester@example.org; "

@@ -18,7 +18,7 @@ Experiment read(std::string_view text, bool quick = false)
 /// Returns the sentence that the text is refused with; empty if it is accepted.
 std::string refusal(std::string_view text)
 {
-    return refusal_of([&] { read(text); });
+    return refusal_of<BadUsage>([&] { read(text); });
 }
 
 /// Expects that each text (first) is refused with a sentence that contains the second string.

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Invented results with numbers that are easy to recognise, and a helper for error messages.
+// Invented results with numbers that are easy to recognise.
 #pragma once
-
-#include <functional>
 
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
 #include "harness/record/record.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
-
-/// Returns the message of the BadUsage that `work` throws; empty if it throws none.
-inline std::string refusal_of(const std::function<void()>& work)
-{
-    try {
-        work();
-        return {};
-    } catch (const BadUsage& error) {
-        return error.what();
-    }
-}
 
 inline Json fake_run()
 {

@@ -10,6 +10,7 @@
 #include "harness/measure/frames.h"
 #include "harness/measure/pipeline.h"
 #include "tests/collide/collider_testing.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
@@ -63,12 +64,9 @@ void expect_refusal(const Scene& scene, const BuilderChoice& builder,
                     const ColliderChoice& collider, const std::string& words)
 {
     const Input input = upload_frame(session(), scene, 0);
-    try {
-        Pipeline(session(), builder, collider, input);
-        ADD_FAILURE() << collider.name << " over " << builder.name << " is not refused";
-    } catch (const BadUsage& refusal) {
-        EXPECT_NE(std::string(refusal.what()).find(words), std::string::npos) << refusal.what();
-    }
+    const std::string why =
+        refusal_of<BadUsage>([&] { Pipeline(session(), builder, collider, input); });
+    EXPECT_NE(why.find(words), std::string::npos) << collider.name << builder.name << why;
 }
 
 TEST(Update, RebuildsEveryTreeInEveryFrame)

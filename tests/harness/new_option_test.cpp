@@ -7,6 +7,7 @@
 
 #include "geometry/error.h"
 #include "harness/choice/choices.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
@@ -39,12 +40,10 @@ TEST(NewOption, IsAKeyOfExperimentsAndResultFiles)
 TEST(NewOption, IsRefusedInASentenceForAWrongValue)
 {
     CellChoice choice;
-    try {
-        read_choices({{"bins", 257}}, Choice::Of::builder, choice);
-        FAIL();
-    } catch (const BadUsage& error) {
-        EXPECT_STREQ(error.what(), "'bins' takes a number of bins up to 256, not '257'");
-    }
+    EXPECT_EQ(refusal_of<BadUsage>([&] {
+                  read_choices({{"bins", 257}}, Choice::Of::builder, choice);
+              }),
+              "'bins' takes a number of bins up to 256, not '257'");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 std::string refusal(std::vector<const char*> words)
 {
     words.insert(words.begin(), "bvhbench");
-    return refusal_of([&] { check_words(static_cast<int>(words.size()), words.data()); });
+    return refusal_of<BadUsage>([&] { check_words(static_cast<int>(words.size()), words.data()); });
 }
 
 /// Returns the error messages for a value of an option, from an experiment and from the command line.
@@ -32,8 +32,10 @@ std::vector<std::string> refusals(const std::string& key, const std::string& val
         if (option.key != key)
             continue;
         CellChoice choice;
-        said.push_back(refusal_of([&] { read_choices({{key, value}}, option.of, choice); }));
-        said.push_back(refusal_of([&] {
+        said.push_back(refusal_of<BadUsage>([&] {
+            read_choices({{key, value}}, option.of, choice);
+        }));
+        said.push_back(refusal_of<BadUsage>([&] {
             CLI::App app;
             add_choices(app, choice, [&](const Choice& one) { return &one == &option; });
             std::string name = "--" + key;
@@ -215,14 +217,14 @@ TEST(Catalog, ListsEachOnceAndAnswersAnUnknownNameWithThoseThereAre)
     expect_whole(builder_catalog(), find_builder);
     expect_whole(collider_catalog(), find_collider);
     constexpr std::size_t few = 12;  // more are not listed beside a guess
-    EXPECT_EQ(refusal_of([] { find_collider("leafs"); }),
+    EXPECT_EQ(refusal_of<BadUsage>([] { find_collider("leafs"); }),
               "no collider is called 'leafs'; " +
                   (collider_catalog().size() <= few
                        ? "there are: " + joined(names_of(collider_catalog())) + "; "
                        : "") +
                   "did you mean 'leaf'?");
     EXPECT_GT(builder_catalog().size(), 15u);
-    EXPECT_EQ(refusal_of([] { find_builder("oibvh"); }),
+    EXPECT_EQ(refusal_of<BadUsage>([] { find_builder("oibvh"); }),
               "no builder is called 'oibvh'; there are: " + joined(names_of(builder_catalog())));
 }
 

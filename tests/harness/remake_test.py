@@ -25,9 +25,7 @@ def remake(*words: str) -> subprocess.CompletedProcess:
 
 class Remake(unittest.TestCase):
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
     def quick(self, *words: str) -> subprocess.CompletedProcess:
         return remake("--program", PROGRAM, "--device", "cpu", "--quick", "--out", str(self.folder), *words)

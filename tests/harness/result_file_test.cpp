@@ -104,17 +104,19 @@ TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
 {
     const fs::path path = folder_ / "r.json";
     leave_killed(path);
-    EXPECT_NE(
-        refusal_of([&] { ResultFile(resumed(path), false, Resuming{}, ""); }).find("did not end"),
-        std::string::npos);
+    EXPECT_NE(refusal_of<BadUsage>([&] {
+                  ResultFile(resumed(path), false, Resuming{}, "");
+              }).find("did not end"),
+              std::string::npos);
     Json run = fake_run();
     run["id"] = "later";
     {
         ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
         EXPECT_FALSE(file.has_begun());
         EXPECT_EQ(file.next_order(), 0) << "of its own run there are no samples";
-        EXPECT_NE(refusal_of([&] { file.check_earlier({"0123"}, run); }).find("1 of 2 parts"),
-                  std::string::npos);
+        EXPECT_NE(
+            refusal_of<BadUsage>([&] { file.check_earlier({"0123"}, run); }).find("1 of 2 parts"),
+            std::string::npos);
         file.check_earlier({"0123", "4567", "89ab"}, run);
         EXPECT_TRUE(file.take_part("0123"));
         file.begin(run);

@@ -9,19 +9,10 @@
 #include "builders/parameters.h"
 #include "builders/stages/sort/sort.h"
 #include "geometry/error.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
-
-std::string refusal(const auto& action)
-{
-    try {
-        action();
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 std::string with_values(const std::string& values)
 {
@@ -72,7 +63,7 @@ TEST(TuningFile, IsNamedAfterTheDevice)
 TEST(TuningFile, RefusesInOneSentenceWhatCannotBe)
 {
     const auto says = [](const std::string& text) {
-        const std::string why = refusal([&] { parse_tuning(text, "x.json"); });
+        const std::string why = refusal_of([&] { parse_tuning(text, "x.json"); });
         EXPECT_EQ(why.find('\n'), why.npos) << why;
         return why;
     };
@@ -110,7 +101,7 @@ TEST(TuningFile, IsOfOneDeviceAndOfGroupsThatItHas)
 {
     const Device device = open_device("");
     TuningFile file = some_file();
-    EXPECT_EQ(refusal([&] { tuning_of(file, device, "x.json"); }),
+    EXPECT_EQ(refusal_of([&] { tuning_of(file, device, "x.json"); }),
               "x.json: its values are of 'Some Device (TM) 9000', and the device is '" +
                   device.name() + "'");
     file.device = device.name();
@@ -142,8 +133,8 @@ TEST_F(Folder, GivesTheDevicesFileOrNone)
     EXPECT_EQ(found.origin, (path_ / (device_slug(device_.name()) + ".json")).string());
     EXPECT_EQ(tuning_file_for(device_, "").origin, "none") << "an empty word means none";
     write("{");
-    EXPECT_NE(refusal([&] { tuning_file_for(device_, path_.string()); }), "no error");
-    EXPECT_EQ(refusal([&] { tuning_file_for(device_, "/no/such"); }),
+    EXPECT_NE(refusal_of([&] { tuning_file_for(device_, path_.string()); }), "");
+    EXPECT_EQ(refusal_of([&] { tuning_file_for(device_, "/no/such"); }),
               "tuning: there is no folder '/no/such'");
 }
 

@@ -52,16 +52,6 @@ def check_files(prefix: pathlib.Path) -> None:
     assert not any('"' in line for line in included), included
 
 
-def check_version(folder: pathlib.Path, prefix: pathlib.Path) -> None:
-    project = folder / "newer"
-    project.mkdir()
-    (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.16)\nproject(newer LANGUAGES CXX)\n"
-                                            "find_package(bvhbench 99 REQUIRED)\n")
-    said = run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}",
-               f"-DCMAKE_CXX_COMPILER={COMPILER}", fails=True)
-    assert "bvhbenchConfig.cmake, version:" in said, said
-
-
 # Parameters that declare the names which the documents' examples use but do not define.
 GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem faces, std::size_t face_count, "
          "std::uint32_t cloth_faces, std::uint32_t ball_faces, const bvhbench::oibvh::Input& input, "
@@ -104,52 +94,71 @@ int main() { std::cout << bvhbench::oibvh::version() << std::endl; }
 """
 
 
-def check_pkg_config(folder: pathlib.Path, prefix: pathlib.Path, version: str) -> None:
-    """Asserts that pkg-config's flags compile and link a program, which prints the package's version."""
-    where = {"PKG_CONFIG_PATH": str(next(prefix.rglob("bvhbench-oibvh.pc")).parent)}
-    assert run("pkg-config", "--modversion", "bvhbench-oibvh", **where).strip() == version
-    flags = run("pkg-config", "--cflags", "--libs", "bvhbench-oibvh", **where).split()
+def place(prefix: pathlib.Path, name: str) -> str:
+    """Returns the folder of an installed file."""
+    return str(next(prefix.rglob(name)).parent)
+
+
+def linked(compiler: str, package: str, user: str, folder: pathlib.Path, prefix: pathlib.Path) -> tuple[str, pathlib.Path]:
+    """Compiles and links a program by pkg-config's flags. Returns the package's version, as it says, and the program."""
+    where = {"PKG_CONFIG_PATH": place(prefix, f"{package}.pc")}
+    flags = run("pkg-config", "--cflags", "--libs", package, **where).split()
     source, program = folder / "user.cpp", folder / "user"
-    source.write_text(USER)
-    run(COMPILER, "-std=c++20", *FLAGS.split(), "-DCL_TARGET_OPENCL_VERSION=120", source, "-o", program, *flags)
-    said = run(program, LD_LIBRARY_PATH=str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent))
-    assert said == f"{version}\n", said
+    source.write_text(user)
+    run(compiler, "-std=c++20", *FLAGS.split(), "-DCL_TARGET_OPENCL_VERSION=120", source, "-o", program, *flags)
+    return run("pkg-config", "--modversion", package, **where).strip(), program
+
+
+def configure(project: pathlib.Path, prefix: pathlib.Path) -> list[str]:
+    return [CMAKE, "-S", str(project), "-B", str(project / "build"), f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={COMPILER}"]
+
+
+def said_to_user(project: pathlib.Path, prefix: pathlib.Path, asks: str, *options: str) -> str:
+    """Configures a project that asks for the package in vain, and returns what CMake says, as one line."""
+    project.mkdir()
+    (project / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.16)\nproject(user LANGUAGES CXX)\n{asks}\n")
+    return " ".join(run(*configure(project, prefix), *options, fails=True).split())
+
+
+def moved(folder: pathlib.Path) -> pathlib.Path:
+    """Installs into a folder, moves what was installed, and returns where it is."""
+    run(CMAKE, "--install", BUILD, "--prefix", folder / "first")
+    (folder / "moved").mkdir()
+    return (folder / "first").rename(folder / "moved" / "prefix")
 
 
 def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        run(CMAKE, "--install", BUILD, "--prefix", folder / "first")
-        prefix = folder / "moved" / "prefix"
-        prefix.parent.mkdir()
-        (folder / "first").rename(prefix)
+        prefix = moved(folder)
         check_files(prefix)
         check_documents(folder, prefix)
 
         project = folder / "project"
         shutil.copytree(pathlib.Path(ROOT) / "examples" / "oibvh", project)
         build = project / "build"
-        run(CMAKE, "-S", project, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={COMPILER}",
-            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", f"-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror {FLAGS}")
+        run(*configure(project, prefix), "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", f"-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror {FLAGS}")
         commands = (build / "compile_commands.json").read_text()
         of_package = commands.replace(FLAGS, "")
         assert "-march" not in of_package and ROOT not in of_package, commands
         run(CMAKE, "--build", build, "--parallel", "2")
 
         version = next(prefix.rglob("bvhbenchConfigVersion.cmake")).read_text().split('PACKAGE_VERSION "')[1].split('"')[0]
-        check_pkg_config(folder, prefix, version)
+        shared = {"LD_LIBRARY_PATH": place(prefix, pathlib.Path(LIBRARY).name)}
+        packaged, program = linked(COMPILER, "bvhbench-oibvh", USER, folder, prefix)
+        assert packaged == version and run(program, **shared) == f"{version}\n", packaged
 
         # The programs must run without the source tree and without the installed headers.
         shutil.rmtree(prefix / "include")
         nowhere = {"BVHBENCH_KERNELS": str(folder / "nowhere")}
-        shared = {"LD_LIBRARY_PATH": str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent)}
         said = run(build / "torus", **nowhere, **shared)
         assert said.startswith(f"bvhbench {version}\n"), said
         assert "4800 leaves on level 13 of 14, 9603 nodes of 24 bytes" in said, said
         assert "31485 pairs" in said and "the same" in said, said
         said = run(build / "own_kernel", **nowhere, **shared)
         assert said == "2400 points lie in 14500 boxes; 0 counts differ from brute force\n", said
-        check_version(folder, prefix)
+        said = said_to_user(folder / "newer", prefix, "find_package(bvhbench 99 REQUIRED)")
+        assert "bvhbenchConfig.cmake, version:" in said, said
     print("installed, moved, found, built against and run")
     return 0
 

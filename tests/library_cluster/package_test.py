@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(sys.argv[3]) / "tests" / "library"))
-from install_test import BUILD, CLUSTER_HEADER, CMAKE, COMPILER, FLAGS, LIBRARY, ROOT, as_function, examples, run  # noqa: E402
+from install_test import CLUSTER_HEADER, CMAKE, COMPILER, FLAGS, LIBRARY, ROOT, as_function, configure, examples, linked, moved, place, run, said_to_user  # noqa: E402, E501
 
 # What mpirun needs of root, in containers and with more ranks than cores; the sanitizer would report what MPI keeps to its end.
 RANKS = ("mpirun", "-np", "2", "--oversubscribe", "--bind-to", "none")
@@ -54,11 +54,7 @@ def check_documents(folder: pathlib.Path, prefix: pathlib.Path) -> None:
 
 def check_pkg_config(folder: pathlib.Path, prefix: pathlib.Path, libraries: dict[str, str]) -> None:
     """Asserts that pkg-config's flags and MPI's compiler command compile and link a program. Its error is caught by its type."""
-    where = {"PKG_CONFIG_PATH": str(next(prefix.rglob("bvhbench-oibvh-cluster.pc")).parent)}
-    flags = run("pkg-config", "--cflags", "--libs", "bvhbench-oibvh-cluster", **where).split()
-    source, program = folder / "user.cpp", folder / "user"
-    source.write_text(USER)
-    run("mpicxx", "-std=c++20", *FLAGS.split(), "-DCL_TARGET_OPENCL_VERSION=120", source, "-o", program, *flags)
+    _, program = linked("mpicxx", "bvhbench-oibvh-cluster", USER, folder, prefix)
     said = run(*RANKS, program, **SETTINGS, **libraries)
     assert said == 2 * "a Device wants a cl_command_queue, and it is null\n", said
 
@@ -72,28 +68,17 @@ def check_example(project: pathlib.Path, prefix: pathlib.Path, libraries: dict[s
     assert said.count("on 2 ranks") == said.count(": the same;") == 4, said
 
 
-def configure(project: pathlib.Path, prefix: pathlib.Path) -> list[str]:
-    return [CMAKE, "-S", str(project), "-B", str(project / "build"), f"-DCMAKE_PREFIX_PATH={prefix}",
-            f"-DCMAKE_CXX_COMPILER={COMPILER}"]
-
-
 def check_absence(folder: pathlib.Path, prefix: pathlib.Path) -> None:
     """Asserts that the package says why it lacks the component: MPI was missing where it was built, or is where it is used."""
-    def said_to_user(of: pathlib.Path, name: str, *options: str) -> str:
-        project = folder / name
-        project.mkdir()
-        (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.16)\nproject(user LANGUAGES CXX)\n"
-                                                "find_package(bvhbench)\nfind_package(bvhbench REQUIRED COMPONENTS cluster)\n")
-        return " ".join(run(*configure(project, of), *options, fails=True).split())
-
+    asks = "find_package(bvhbench)\nfind_package(bvhbench REQUIRED COMPONENTS cluster)"
     assert "its component cluster needs MPI 3.0, which was not found" in said_to_user(
-        prefix, "without-mpi", "-DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON")
+        folder / "without-mpi", prefix, asks, "-DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON")
     alone, without = folder / "alone", folder / "without"
     run(CMAKE, "-S", ROOT, "-B", alone, f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DBVHBENCH_BUILD_HARNESS=OFF", "-DBVHBENCH_WITH_MPI=OFF")
     (alone / "library" / "libbvhbench-oibvh.a").touch()  # not built: only the package's files are of interest
     run(CMAKE, "--install", alone, "--prefix", without)
     assert not (without / CLUSTER_HEADER).exists()
-    assert "its component cluster is missing, because it was built without MPI" in said_to_user(without, "no-component")
+    assert "its component cluster is missing, because it was built without MPI" in said_to_user(folder / "no-component", without, asks)
 
 
 def check_symbols(prefix: pathlib.Path) -> None:
@@ -107,13 +92,11 @@ def check_symbols(prefix: pathlib.Path) -> None:
 def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        run(CMAKE, "--install", BUILD, "--prefix", folder / "first")
-        prefix = folder / "moved"
-        (folder / "first").rename(prefix)
+        prefix = moved(folder)
         header = (prefix / CLUSTER_HEADER).read_text()
         assert 'include "' not in header and ROOT not in header
         of_cluster = LIBRARY.replace("-oibvh.", "-oibvh-cluster.")
-        where = str(next(prefix.rglob(pathlib.Path(of_cluster).name)).parent)
+        where = place(prefix, pathlib.Path(of_cluster).name)
         libraries = {"LD_LIBRARY_PATH": os.pathsep.join([where, os.environ.get("LD_LIBRARY_PATH", "")]).rstrip(os.pathsep)}
         if LIBRARY.endswith(".so"):
             check_symbols(prefix)

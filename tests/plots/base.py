@@ -82,9 +82,7 @@ class InFolder(unittest.TestCase):
     """A test with a temporary folder and the golden file of Table 1."""
 
     def setUp(self) -> None:
-        holder = tempfile.TemporaryDirectory(dir=MEMORY)
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(dir=MEMORY)))
         self.document = golden("table1")
 
     def written(self, document: Raw, name: str = "table1.json") -> pathlib.Path:

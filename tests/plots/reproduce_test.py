@@ -41,9 +41,7 @@ NO_MATPLOTLIB = """raise ModuleNotFoundError("No module named 'matplotlib'", nam
 
 class OfReproduce(unittest.TestCase):
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         (self.folder / "program").write_text(PROGRAM)
         (self.folder / "program").chmod(0o755)
         (self.folder / "matplotlib.py").write_text(NO_MATPLOTLIB)

@@ -10,21 +10,10 @@
 
 #include "builders/host_tree.h"
 #include "geometry/error.h"
+#include "tests/refusal.h"
 
 namespace bvhbench::outside {
 namespace {
-
-/// Returns the sentence with which `work` refuses; empty if it does not.
-template <class Work>
-std::string refusal(const Work& work)
-{
-    try {
-        work();
-        return {};
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-}
 
 /// Returns a reply as it is after parsing.
 Json stages(const std::vector<Json>& list)
@@ -55,7 +44,7 @@ TEST(Protocol, StagesLongerThanTheCallAreRefused)
 {
     const Json reply = stages({stage("build", 100, 200, true)});
     EXPECT_EQ(stages_of(reply, 100).size(), 1u);
-    EXPECT_EQ(refusal([&] { stages_of(reply, 99); }),
+    EXPECT_EQ(refusal_of([&] { stages_of(reply, 99); }),
               "its stages last 100 ns, longer than the 99 ns that the whole call took");
 }
 
@@ -67,16 +56,17 @@ TEST(Protocol, StagesThatOverlapOrRepeatAreRefused)
           stages({stage("build", 0, 1, true), stage("build", 1, 2, true)}),
           stages({stage("magic", 0, 1, true)}), stages({stage("build", -1, 1, true)}),
           Json{{"ok", true}, {"stages", 7}}, Json{{"ok", true}, {"stages", {1}}}})
-        EXPECT_NE(refusal([&] { stages_of(reply, 1000); }), "") << reply;
+        EXPECT_NE(refusal_of([&] { stages_of(reply, 1000); }), "") << reply;
 }
 
 TEST(Protocol, ARepliedErrorIsPrintable)
 {
-    EXPECT_EQ(refusal([] { parsed_reply(R"({"error": "no\nroom\u0007"})"); }), "it says: no room ");
-    EXPECT_EQ(refusal([] { parsed_reply("[1]"); }),
+    EXPECT_EQ(refusal_of([] { parsed_reply(R"({"error": "no\nroom\u0007"})"); }),
+              "it says: no room ");
+    EXPECT_EQ(refusal_of([] { parsed_reply("[1]"); }),
               "its reply is malformed: '[1]' is no JSON object");
-    EXPECT_NE(refusal([] { parsed_reply("{}"); }), "");
-    EXPECT_NE(refusal([] { parsed_reply(R"({"ok": "yes"})"); }), "");
+    EXPECT_NE(refusal_of([] { parsed_reply("{}"); }), "");
+    EXPECT_NE(refusal_of([] { parsed_reply(R"({"ok": "yes"})"); }), "");
 }
 
 const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
@@ -86,7 +76,7 @@ const std::vector<Face> faces = {{0, 1, 2}, {3, 4, 5}};
 std::string broken(std::vector<bvhbench_node> nodes, std::vector<std::uint32_t> entries)
 {
     std::string sentence;
-    const std::string why = refusal([&] {
+    const std::string why = refusal_of([&] {
         sentence = invariant_violation(tree_of(nodes, entries, points, faces), points, faces);
     });
     return why + sentence;
@@ -128,7 +118,7 @@ TEST(Protocol, PairsAreAmongTheTriangles)
     put_in_order(pairs, 4);
     EXPECT_EQ(pairs, (std::vector<Pair>{{1, 3}, {0, 2}}));
     for (Pair wrong : {Pair{4, 1}, Pair{1, 4}, Pair{2, 2}})
-        EXPECT_NE(refusal([&] { put_in_order({&wrong, 1}, 4); }), "");
+        EXPECT_NE(refusal_of([&] { put_in_order({&wrong, 1}, 4); }), "");
 }
 
 TEST(Protocol, TheLastWordsAreTheLastLine)
@@ -151,7 +141,7 @@ TEST(Protocol, ChangedBytesAreReadOrRefused)
         std::string text = k % 2 == 0 ? hello : timed;
         for (int change = 0; change < 1 + k % 3; ++change)
             text[random() % text.size()] = static_cast<char>(random());
-        const std::string why = refusal([&] {
+        const std::string why = refusal_of([&] {
             const Json reply = parsed_reply(text);
             Library library;
             if (k % 2 == 0)

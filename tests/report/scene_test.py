@@ -31,9 +31,7 @@ def run(*words: object) -> subprocess.CompletedProcess:
 class Scene(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
-        holder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(holder.cleanup)
-        cls.folder = pathlib.Path(holder.name)
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.page = cls.folder / "scene.html"
         cls.made = run("report", GOLDEN / "table4.json", "--scene", SCENE, "--frame", FRAME,
                        "--builder", BUILDER, "--out", cls.page)

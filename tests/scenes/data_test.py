@@ -19,9 +19,7 @@ COLUMNS = "name kind triangles vertices objects frames files sha256 url stand_in
 
 class Data(unittest.TestCase):
     def setUp(self) -> None:
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.data = self.folder / "data"
         (self.folder / "source").mkdir()
         (self.folder / "source" / "a.ply").write_bytes(CONTENT)

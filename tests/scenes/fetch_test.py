@@ -40,9 +40,7 @@ class Server(http.server.BaseHTTPRequestHandler):
 
 class Fetch(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.file = self.folder / "a.ply"
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Server)
         self.base = f"http://127.0.0.1:{server.server_port}"

@@ -3,6 +3,7 @@
 // Files of queries are read whole, with coordinates that are doubles exactly, or refused with the line.
 #include "scenes/moving_queries.h"
 
+#include "tests/refusal.h"
 #include "tests/scenes/helpers.h"
 
 namespace bvhbench {
@@ -20,12 +21,7 @@ std::string query(const std::string& end, const std::string& x = "0,1")
 
 std::string said_of(const std::filesystem::path& path)
 {
-    try {
-        read_queries(path);
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return "";
+    return refusal_of([&] { read_queries(path); });
 }
 
 TEST(MovingQueries, AreReadByFolderAndKind)
