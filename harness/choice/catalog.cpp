@@ -261,12 +261,11 @@ void add_broken_outside(const std::string& why)
 
 bool has_outside() { return !outside_entries().libraries.empty(); }
 
-std::vector<const outside::Offer*> outside_answers()
+std::vector<const outside::Offer*> outside_offers()
 {
     std::vector<const outside::Offer*> found;
     for (const outside::Offer& offer : outside_entries().offers)
-        if (offer.method.answers)
-            found.push_back(&offer);
+        found.push_back(&offer);
     return found;
 }
 

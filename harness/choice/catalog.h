@@ -140,8 +140,8 @@ void add_broken_outside(const std::string& why);
 /// True if the catalogs have a method from outside.
 bool has_outside();
 
-/// Returns the methods from outside that answer single queries of moving points.
-std::vector<const outside::Offer*> outside_answers();
+/// Returns all methods from outside.
+std::vector<const outside::Offer*> outside_offers();
 
 /// Returns the library of the method `name` from outside; nullptr if it is none.
 const outside::Library* outside_library(std::string_view name);

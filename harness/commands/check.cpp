@@ -152,6 +152,9 @@ public:
             Session session(invocation.common);
             return check_portable(session, invocation.words);
         }
+        if (find_name(builder_catalog(), builder_) == nullptr && outside_library(builder_))
+            throw BadUsage("'check' judges builders, and " + builder_ +
+                           ", from outside, is none: `smoke` and `run agreement` judge it");
         std::vector<BuilderChoice> builders = chosen_builders(builder_);
         const auto is_outside = [](const auto& one) {
             return find_builder(one.name).outside != nullptr;

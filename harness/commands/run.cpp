@@ -70,6 +70,7 @@ public:
         const std::set<std::string> keys = keys_of(planned_scenes(plan, filter, {}, settings));
         if (resuming_.is_asked)
             results.check_earlier(keys, run_facts(session.device(), {}));
+        tell_absent(scenes, filter, plan.name);
         Run run(session, results, costs_, common);
         const auto begin = [&] {
             results.begin(results.has_begun() ? Json() : facts(session, invocation, plan));
@@ -175,6 +176,20 @@ private:
              file.read(piece.data(), piece.size()) || file.gcount() > 0;)
             hash.bytes(piece.data(), static_cast<std::size_t>(file.gcount()));
         return hex(hash.get());
+    }
+
+    /// Says which methods from outside are in no cell of these scenes.
+    static void tell_absent(const std::vector<PlannedScene>& scenes, const CellFilter& filter,
+                            const std::string& plan)
+    {
+        std::set<std::string> there;
+        for (const PlannedScene& scene : scenes)
+            for (const Cell& cell : planned_cells(scene, filter))
+                there.insert({cell.builder.name, cell.collider.name});
+        for (const outside::Offer* offer : outside_offers())
+            if (const std::string& name = offer->method.name;
+                !there.contains(name) && !there.contains(name + "-refit"))
+                std::cerr << name << ", from outside, takes no part in " << plan << '\n';
     }
 
     /// Throws BadUsage if a key is there twice.

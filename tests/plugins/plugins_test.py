@@ -222,6 +222,9 @@ def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
     for words in (("check", "--builder", "perfect"), ("check", "--portable"), ("stress",)):
         expect(2, *words, "--plugin", GOOD, says=f"'{words[0]}")
     expect(2, "stress", BVHBENCH_PLUGINS=GOOD, says="takes no part: `smoke` and `run agreement` judge it")
+    expect(2, "check", "--builder", "every-two", "--plugin", GOOD, says="every-two, from outside, is none")
+    done = run("run", experiment("none.json", scenes=["torus:200"], builders=["halves"]), "--plugin", GOOD, "--out", "none-results.json")
+    assert done.stderr.splitlines()[:2] == [f"{name}, from outside, takes no part in test" for name in ("every-two", "at-the-start")], done
     done = run("check", "--builder", "halves", "--plugin", GOOD)
     assert done.returncode == 0 and done.stderr.startswith("colliders from outside take no part in `check`"), done
 
