@@ -53,6 +53,9 @@ public:
 private:
     const Tree& run(std::string_view call, const Input& input, Queue& queue)
     {
+        if (input.is_swept())
+            throw BadUsage("a builder from outside takes the triangles of one moment: " +
+                           offer_.method.name + " knows no swept boxes");
         state_.send_frame(input);
         queue.cl().finish();  // nothing else runs beside it
         state_.run(call, queue);

@@ -11,32 +11,39 @@ namespace {
 class OutsideCollider final : public Collider {
 public:
     OutsideCollider(const Offer& offer, bool refits, const Device& device,
-                    const ColliderOptions& options)
+                    const ColliderOptions& options, std::optional<double> distance)
         : offer_(offer)
         , refits_(refits)
         , name_(offer.method.name + (refits ? "-refit" : ""))
+        , among_(options.among)
+        , keeps_adjacent_(options.keep_adjacent)
+        , distance_(distance)
         , device_(device)
         , state_(offer.library, offer.method, offer.limits)
     {
-        if (options.among != Among::all || !options.keep_adjacent)
-            throw BadUsage("the collider " + name_ +
-                           " comes from outside and finds all pairs: it takes neither 'pairs_of' "
-                           "nor 'adjacent'");
+        if (distance && !offer.method.within)
+            refuse("does not say that it finds pairs within a distance: it takes no 'within'");
     }
 
     ColliderCard card() const override { return {name_, offer_.library.name}; }
     bool needs_tree() const override { return false; }
     bool is_on_host() const override { return true; }
-    bool finds_contacts() const override { return offer_.method.finds_contacts; }
+    bool finds_contacts() const override { return distance_ || offer_.method.finds_contacts; }
     std::string refusal(const Tree&) const override { return {}; }
     bool complete(const Queue&) override { return true; }
 
     void reserve(const Tree*, const Input& input) override
     {
+        if (input.is_swept() && !offer_.method.steps)
+            refuse("takes the triangles of one moment: it knows no swept boxes");
+        if (!keeps_adjacent_ && !offer_.method.steps)
+            refuse("finds all pairs: it takes no 'adjacent'");
+        if (!input.is_swept() && among_ != Among::all)
+            refuse("finds pairs of all triangles: it takes no 'pairs_of'");
         state_.reset();
         found_.reset();
         count_.reset();
-        state_.send_frame(input);
+        send_frame(input);
         if (!refits_)
             return;
         Queue queue(device_);
@@ -48,12 +55,12 @@ public:
     void query(const Tree*, const Input& input, Queue& queue) override
     {
         found_.reset();
-        if (state_.send_frame(input))
+        if (send_frame(input))
             count_.reset();
         queue.cl().finish();  // nothing else runs beside it
         if (offer_.method.builds)
             state_.run(refits_ ? "refit" : "build", queue);
-        state_.run("query", queue);
+        state_.run("query", queue, distance_);
     }
 
     QueryCounts counts(const Queue&) const override
@@ -78,6 +85,19 @@ public:
     }
 
 private:
+    [[noreturn]] void refuse(const std::string& why) const
+    {
+        throw BadUsage("the collider " + name_ + " comes from outside and " + why);
+    }
+
+    /// Gives it the frame or step. Of the two objects of a step, pairs are sought between both, not within.
+    bool send_frame(const Input& input)
+    {
+        return state_.send_frame(
+            input,
+            {among_ == Among::between_objects ? input.objects.front().count : 0, !keeps_adjacent_});
+    }
+
     /// Fetches the pairs of the last query, once.
     const std::vector<Pair>& found() const
     {
@@ -91,6 +111,9 @@ private:
     Offer offer_;
     bool refits_;
     std::string name_;
+    Among among_;
+    bool keeps_adjacent_;
+    std::optional<double> distance_;
     const Device& device_;
     mutable State state_;
     mutable std::optional<std::vector<Pair>> found_;
@@ -102,9 +125,10 @@ private:
 }  // namespace
 
 std::unique_ptr<Collider> make_collider(const Offer& offer, bool refits, const Device& device,
-                                        const ColliderOptions& options)
+                                        const ColliderOptions& options,
+                                        std::optional<double> distance)
 {
-    return std::make_unique<OutsideCollider>(offer, refits, device, options);
+    return std::make_unique<OutsideCollider>(offer, refits, device, options, distance);
 }
 
 }  // namespace bvhbench::outside

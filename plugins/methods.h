@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "builders/builder.h"
@@ -20,9 +21,10 @@ struct Offer {
 /// Makes a builder of a method with `build` and `tree`. Like all builders, it counts what the method says it holds.
 std::unique_ptr<Builder> make_builder(const Offer& offer);
 
-/// Makes a collider of a method with `query`. A query includes the method's build or, if `refits`, its refit. Throws BadUsage for pairs
-/// that are not all of them, which no method from outside is asked for.
+/// Makes a collider of a method with `query`. A query includes the method's build or, if `refits`, its refit. With a distance the collider
+/// finds contacts, the pairs within it. Throws BadUsage for pairs that the method does not say it finds, here or when it reserves.
 std::unique_ptr<Collider> make_collider(const Offer& offer, bool refits, const Device& device,
-                                        const ColliderOptions& options);
+                                        const ColliderOptions& options,
+                                        std::optional<double> distance);
 
 }  // namespace bvhbench::outside

@@ -92,9 +92,14 @@ Method method_of(const Json& entry)
     method.has_tree = truth_at(entry, "tree");
     method.finds_contacts = truth_at(entry, "finds_contacts");
     method.answers = truth_at(entry, "answer");
+    method.steps = truth_at(entry, "steps");
+    method.within = truth_at(entry, "within");
     if (method.queries && !truth_at(entry, "pairs"))
         throw Unavailable("its method " + method.name +
                           " has `query` without `pairs`, by which a query is judged");
+    if ((method.steps || method.within) && !method.queries)
+        throw Unavailable("its method " + method.name +
+                          " has `load_step` or `query_within` without `query`");
     if (method.refits && !method.builds)
         throw Unavailable("its method " + method.name + " has `refit` without `build`");
     if (!method.is_builder() && !method.queries && !method.answers)

@@ -34,6 +34,8 @@ struct Method {
     bool has_tree = false;
     bool finds_contacts = false;
     bool answers = false;  ///< single queries of moving points
+    bool steps = false;    ///< finds pairs of a step too, and of those leaves out what a mesh says
+    bool within = false;   ///< finds pairs within a distance too
 
     bool is_builder() const { return builds && has_tree; }
 };

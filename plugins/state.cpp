@@ -70,14 +70,16 @@ void State::measure_round_trip()
     }
 }
 
-void State::take_mesh(const Input& input)
+void State::take_mesh(const Input& input, const Sought& sought)
 {
     start();
     const MemoryFile file(bytes_of(input.faces));
     process_->ask({{"call", "prepare"},
                    {"vertices", input.points.size()},
                    {"triangles", input.faces.size()},
-                   {"faces", file.path()}});
+                   {"faces", file.path()},
+                   {"first", sought.first},
+                   {"drops_adjacent", sought.drops_adjacent}});
     faces_.assign(input.faces.begin(), input.faces.end());
     points_.clear();
     measure_round_trip();
@@ -101,27 +103,32 @@ void State::send_queries(std::span<const MovingQuery> queries)
     measure_round_trip();
 }
 
-bool State::send_frame(const Input& input)
+bool State::send_frame(const Input& input, const Sought& sought)
 {
-    if (input.is_swept())
-        throw BadUsage("a method from outside takes the triangles of one moment: " + method_.name +
-                       " knows no swept boxes");
     if (process_ == nullptr || !are_equal(faces_, input.faces) ||
         (!points_.empty() && points_.size() != input.points.size()))
-        take_mesh(input);
-    if (!points_.empty() && are_equal(points_, input.points))
+        take_mesh(input, sought);
+    if (!points_.empty() && are_equal(points_, input.points) &&
+        are_equal(end_points_, input.end_points))
         return false;
-    const MemoryFile file(bytes_of(input.points));
-    process_->ask({{"call", "load"}, {"points", file.path()}});
+    const MemoryFile file(bytes_of(input.points)), end_file(bytes_of(input.end_points));
+    Json request = {{"call", "load"}, {"points", file.path()}};
+    if (input.is_swept())
+        request["end_points"] = end_file.path();
+    process_->ask(request);
     points_.assign(input.points.begin(), input.points.end());
+    end_points_.assign(input.end_points.begin(), input.end_points.end());
     return true;
 }
 
-void State::run(std::string_view call, Queue& queue)
+void State::run(std::string_view call, Queue& queue, std::optional<double> within)
 {
+    Json request = {{"call", call}};
+    if (within)
+        request["within"] = *within;
     if (call == "build" && last_build_ns_ < short_build_ns)
-        process_->ask({{"call", call}});
-    const Json reply = process_->ask({{"call", call}});
+        process_->ask(request);
+    const Json reply = process_->ask(request);
     const std::int64_t wall_ns = process_->wall_ns();
     if (call == "build")
         last_build_ns_ = wall_ns;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,12 @@
 
 namespace bvhbench::outside {
 
+/// Which pairs of a mesh are sought, as in bvhbench_mesh.
+struct Sought {
+    std::size_t first = 0;
+    bool drops_adjacent = false;
+};
+
 /// One method from outside, at work in a process of its own, which is started for each mesh. All functions throw Unavailable, with a
 /// sentence, if it fails.
 class State {
@@ -21,16 +28,16 @@ public:
         : library_(library), method_(method), limits_(limits)
     {}
 
-    /// Gives the process this frame, unless it has it: its mesh by `prepare`, its points by `load`. Returns whether the frame is a new
-    /// one. Not timed.
-    bool send_frame(const Input& input);
+    /// Gives the process this frame or step, unless it has it: its mesh by `prepare`, its points by `load`. Returns whether it is a new
+    /// one. What is sought is the same until reset(). Not timed.
+    bool send_frame(const Input& input, const Sought& sought = {});
 
     /// Starts the process and gives it queries, all of a vertex and a face or all of two edges. Not timed.
     void send_queries(std::span<const MovingQuery> queries);
 
-    /// Runs `build`, `refit`, `query` or `answer`, and adds its stages and the time of the call to the queue. After a pause, in which others are
+    /// Runs `build`, `refit`, `query` or `answer`, a query `within` a distance if there is one, and adds its stages and the time of the call to the queue. After a pause, in which others are
     /// sampled, allocations of a library take up to twice as long as in a loop of its own: a short build runs once before, untimed.
-    void run(std::string_view call, Queue& queue);
+    void run(std::string_view call, Queue& queue, std::optional<double> within = {});
 
     /// Results of the last calls. Not timed.
     std::vector<Pair> pairs();
@@ -49,15 +56,16 @@ public:
 private:
     void start();
     void measure_round_trip();
-    void take_mesh(const Input& input);
+    void take_mesh(const Input& input, const Sought& sought);
 
     const Library& library_;
     const Method& method_;
     Limits limits_;
     std::unique_ptr<Process> process_;
-    std::vector<Face> faces_;    ///< of the process's mesh
-    std::vector<Point> points_;  ///< of its frame; empty: none
-    std::size_t queries_ = 0;    ///< number of its queries of moving points
+    std::vector<Face> faces_;        ///< of the process's mesh
+    std::vector<Point> points_;      ///< of its frame; empty: none
+    std::vector<Point> end_points_;  ///< of its step; empty: it has a frame
+    std::size_t queries_ = 0;        ///< number of its queries of moving points
     std::int64_t round_trip_ns_ = 0;
     std::int64_t last_build_ns_ =
         INT64_MAX;  ///< the first build, which compiles, has none before it

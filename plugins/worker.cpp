@@ -9,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
+#include <cstring>
 #include <iostream>
 #include <system_error>
 
@@ -21,6 +23,7 @@ namespace {
 
 constexpr std::string_view argument = "--outside";
 constexpr std::string_view as_program = "program", as_library = "library";
+constexpr std::uint32_t without_steps = 2;  ///< version whose methods end before load_step
 
 std::string text_of(const char* text, const char* what)
 {
@@ -65,12 +68,20 @@ public:
             throw Unavailable("it has no symbol `bvhbench_plugin_entry`");
         plugin_ = entry(BVHBENCH_PLUGIN_ABI);
         if (plugin_ == nullptr)
+            plugin_ = entry(without_steps);
+        if (plugin_ == nullptr)
             throw Unavailable("it does not serve version " + std::to_string(BVHBENCH_PLUGIN_ABI) +
                               " of the interface");
-        if (plugin_->abi != BVHBENCH_PLUGIN_ABI)
+        if (plugin_->abi != BVHBENCH_PLUGIN_ABI && plugin_->abi != without_steps)
             throw Unavailable("it was made for version " + std::to_string(plugin_->abi) +
                               " of the interface, and this is version " +
                               std::to_string(BVHBENCH_PLUGIN_ABI));
+        const std::size_t bytes = plugin_->abi == without_steps
+                                      ? offsetof(bvhbench_method, load_step)
+                                      : sizeof(bvhbench_method);
+        for (std::uint32_t k = 0; k < plugin_->method_count; ++k)
+            std::memcpy(&methods_.emplace_back(),
+                        reinterpret_cast<const char*>(plugin_->methods) + k * bytes, bytes);
     }
 
     Json reply_to(const Json& request)
@@ -90,6 +101,8 @@ public:
             return timed(method_->build);
         if (call == "refit")
             return timed(method_->refit);
+        if (call == "query" && request.contains("within"))
+            return timed(method_->query_within, request.at("within").get<double>());
         if (call == "query")
             return timed(method_->query);
         if (call == "pairs")
@@ -119,8 +132,7 @@ private:
     Json hello() const
     {
         Json methods = Json::array();
-        for (std::uint32_t k = 0; k < plugin_->method_count; ++k) {
-            const bvhbench_method& method = plugin_->methods[k];
+        for (const bvhbench_method& method : methods_) {
             const std::string name = text_of(method.name, "name");
             const bool answers = method.load_queries != nullptr && method.answer != nullptr &&
                                  method.times != nullptr;
@@ -139,6 +151,8 @@ private:
                                {"pairs", method.pairs != nullptr},
                                {"tree", method.tree != nullptr},
                                {"answer", answers},
+                               {"steps", method.load_step != nullptr},
+                               {"within", method.query_within != nullptr},
                                {"finds_contacts", method.finds_contacts != 0}});
         }
         return {{"ok", true},
@@ -152,9 +166,9 @@ private:
 
     Json create(const std::string& name)
     {
-        for (std::uint32_t k = 0; k < plugin_->method_count; ++k)
-            if (name == plugin_->methods[k].name)
-                method_ = &plugin_->methods[k];
+        for (const bvhbench_method& method : methods_)
+            if (name == method.name)
+                method_ = &method;
         if (method_ == nullptr)
             throw Unavailable("it has no method " + name);
         std::array<char, 256> why{};
@@ -166,10 +180,13 @@ private:
         return {{"ok", true}};
     }
 
-    /// Throws what the plug-in says if its function returned a `failure`.
-    void require_success(int failure) const
+    /// Calls a function of the method. Throws what the plug-in says if it fails, and Unavailable if the method lacks it.
+    template <class... Parameters, class... Arguments>
+    void call(int (*function)(void*, Parameters...), Arguments... arguments) const
     {
-        if (failure == 0)
+        if (function == nullptr)
+            throw Unavailable("its method lacks this call");
+        if (function(state_, arguments...) == 0)
             return;
         const char* const why = method_->error(state_);
         throw Unavailable(why == nullptr || *why == '\0' ? "it fails and does not say why" : why);
@@ -180,45 +197,47 @@ private:
         faces_ = file_bytes(request.at("faces").get<std::string>());
         const bvhbench_mesh mesh = {request.at("vertices").get<std::uint64_t>(),
                                     request.at("triangles").get<std::uint64_t>(),
-                                    values_in<std::uint32_t>(faces_)};
-        require_success(method_->prepare(state_, &mesh));
+                                    values_in<std::uint32_t>(faces_),
+                                    request.at("first").get<std::uint64_t>(),
+                                    request.at("drops_adjacent").get<bool>() ? 1u : 0u};
+        call(method_->prepare, &mesh);
         return {{"ok", true}};
     }
 
     Json load(const Json& request)
     {
         points_ = file_bytes(request.at("points").get<std::string>());
-        require_success(method_->load(state_, values_in<float>(points_)));
+        if (request.contains("end_points")) {
+            end_points_ = file_bytes(request.at("end_points").get<std::string>());
+            call(method_->load_step, values_in<float>(points_), values_in<float>(end_points_));
+        } else {
+            call(method_->load, values_in<float>(points_));
+        }
         return {{"ok", true}};
     }
 
     Json load_queries(const Json& request)
     {
-        if (method_->load_queries == nullptr)
-            throw Unavailable("its method lacks this call");
         points_ = file_bytes(request.at("points").get<std::string>());
         queries_ = {request.at("count").get<std::uint64_t>(),
                     request.at("of_edges").get<bool>() ? 1u : 0u, values_in<double>(points_)};
-        require_success(method_->load_queries(state_, &queries_));
+        call(method_->load_queries, &queries_);
         return {{"ok", true}};
     }
 
     Json times(const Json& request)
     {
-        if (method_->times == nullptr)
-            throw Unavailable("its method lacks this call");
         const double* times = nullptr;
-        require_success(method_->times(state_, &times));
+        call(method_->times, &times);
         write_array(request, "times", times, queries_.count);
         return {{"ok", true}};
     }
 
-    Json timed(int (*call)(void*, bvhbench_stages*))
+    template <class Function, class... Arguments>
+    Json timed(Function function, Arguments... arguments)
     {
-        if (call == nullptr)
-            throw Unavailable("its method lacks this call");
         bvhbench_stages stages = {};
-        require_success(call(state_, &stages));
+        call(function, arguments..., &stages);
         if (stages.count > BVHBENCH_MOST_STAGES)
             throw Unavailable("it gives " + std::to_string(stages.count) + " stages, and " +
                               std::to_string(BVHBENCH_MOST_STAGES) + " are allowed");
@@ -235,21 +254,17 @@ private:
 
     Json pairs(const Json& request)
     {
-        if (method_->pairs == nullptr)
-            throw Unavailable("its method lacks this call");
         std::uint64_t count = 0;
         const std::uint32_t* two_each = nullptr;
-        require_success(method_->pairs(state_, &count, &two_each));
+        call(method_->pairs, &count, &two_each);
         write_array(request, "pairs", two_each, 2 * count);
         return {{"ok", true}, {"count", count}};
     }
 
     Json tree(const Json& request)
     {
-        if (method_->tree == nullptr)
-            throw Unavailable("its method lacks this call");
         bvhbench_tree tree = {};
-        require_success(method_->tree(state_, &tree));
+        call(method_->tree, &tree);
         write_array(request, "nodes", tree.node, tree.nodes);
         write_array(request, "entries", tree.entry, tree.entries);
         return {{"ok", true}, {"nodes", tree.nodes}, {"entries", tree.entries}};
@@ -258,7 +273,8 @@ private:
     const bvhbench_plugin* plugin_ = nullptr;
     const bvhbench_method* method_ = nullptr;
     void* state_ = nullptr;
-    std::string faces_, points_;
+    std::vector<bvhbench_method> methods_;  ///< of the plug-in, those that it lacks NULL
+    std::string faces_, points_, end_points_;
     bvhbench_queries queries_ = {};
 };
 

@@ -75,7 +75,8 @@ bool time_method(const bvhbench_method& method, const Mesh& mesh, int calls)
         std::fprintf(stderr, " %s\n", why);
         return false;
     }
-    const bvhbench_mesh given = {mesh.points.size() / 3, mesh.faces.size() / 3, mesh.faces.data()};
+    const bvhbench_mesh given = {mesh.points.size() / 3, mesh.faces.size() / 3, mesh.faces.data(),
+                                 0, 0};
     bool is_done =
         method.prepare(state, &given) == 0 && method.load(state, mesh.points.data()) == 0;
     for (const auto& [name, call] :

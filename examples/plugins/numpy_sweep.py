@@ -10,7 +10,7 @@ import time
 import numpy
 
 CANDIDATES = 1 << 22  # pairs that are compared at a time
-METHOD = {"name": "numpy-sweep", "summary": "sweep and prune in NumPy, on a core of the host", "query": True, "pairs": True}
+METHOD = {"name": "numpy-sweep", "summary": "sweep and prune in NumPy, on a core of the host", "query": True, "pairs": True, "steps": True}
 
 
 class Sweep:
@@ -18,14 +18,16 @@ class Sweep:
 
     def prepare(self, request):
         self.faces = numpy.fromfile(request["faces"], numpy.uint32).reshape(-1, 3)
+        self.first, self.drops_adjacent = request["first"], request["drops_adjacent"]
 
     def load(self, request):
-        self.points = numpy.fromfile(request["points"], numpy.float32).reshape(-1, 3)
+        ends = [numpy.fromfile(request[key], numpy.float32).reshape(-1, 3) for key in ("points", "end_points") if key in request]
+        self.points = numpy.stack(ends, axis=1)  # of a frame one each, of a step two
 
     def query(self, _request):
         begin = time.monotonic_ns()
         corners = self.points[self.faces]
-        low, high = corners.min(axis=1), corners.max(axis=1)
+        low, high = corners.min(axis=(1, 2)), corners.max(axis=(1, 2))
         order = numpy.argsort(low[:, 0], kind="stable")
         low, high = low[order], high[order]
         # The boxes that begin along x before box k ends follow it without a gap.
@@ -36,7 +38,13 @@ class Sweep:
             a = numpy.repeat(chunk, counts[chunk])
             b = numpy.arange(len(a)) - numpy.repeat(numpy.cumsum(counts[chunk]) - counts[chunk], counts[chunk]) + a + 1
             meet = ((low[a, 1:] <= high[b, 1:]) & (low[b, 1:] <= high[a, 1:])).all(axis=1)
-            found.append(numpy.column_stack((order[a[meet]], order[b[meet]])).astype(numpy.uint32))
+            pairs = numpy.sort(numpy.column_stack((order[a[meet]], order[b[meet]])), axis=1)
+            if self.first:
+                pairs = pairs[(pairs[:, 0] < self.first) & (pairs[:, 1] >= self.first)]
+            if self.drops_adjacent:
+                both = self.faces[pairs]
+                pairs = pairs[(both[:, 0, :, None] != both[:, 1, None, :]).all(axis=(1, 2))]
+            found.append(pairs.astype(numpy.uint32))
         self.found = numpy.concatenate(found)
         return {"stages": [{"name": "broad", "begin_ns": begin, "end_ns": time.monotonic_ns(), "device": False}]}
 
@@ -53,7 +61,7 @@ def reply(sweep, request):
     if call == "create":
         return {}
     if call == "bytes":
-        return {"bytes": sum(array.nbytes for array in vars(sweep).values())}
+        return {"bytes": sum(array.nbytes for array in vars(sweep).values() if isinstance(array, numpy.ndarray))}
     return getattr(sweep, call)(request) or {}
 
 

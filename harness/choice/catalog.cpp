@@ -326,7 +326,8 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
         throw BadUsage("the collider " + choice.name +
                        " finds all pairs; leaf ends at the first contact, as 'first' asks");
     if (entry.outside != nullptr)
-        return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice);
+        return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice,
+                                      choice.distance);
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
     return entry.make(programs, choice);

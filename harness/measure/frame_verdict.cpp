@@ -82,10 +82,10 @@ void check_inexact(const PairList& found, const PairList& expected, bool may_mis
     const Differences wrong = count_errors(found, expected, "", cell);
     if (!may_miss && (wrong.missed > 0 || found.surplus() > 0))
         cell.check.find_wrong(std::to_string(found.surplus()) + " contacts were found twice, " +
-                              std::to_string(wrong.missed) + " missed; ");
+                              std::to_string(wrong.missed) + " missed");
     if (cell.check.verdict == Check::Verdict::agrees)
         cell.check.verdict = Check::Verdict::counted;
-    cell.check.detail += wrong.text("contacts");
+    cell.check.detail += (cell.check.detail.empty() ? "" : "; ") + wrong.text("contacts");
 }
 
 /// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes
@@ -129,6 +129,8 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
         judge_contacts(pipeline, cell, found);
     if (frame_.wants_lists)
         found.times = pipeline.impact_times();
+    if (frame_.input.is_swept() && pipeline.collider().finds_contacts())
+        found.times.resize(found.contacts.size());  // it gives none: 0 is before all of them
     if (frame_.judge_more)
         frame_.judge_more(found, cell);
 }
@@ -213,12 +215,13 @@ void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& f
     const FoundList contacts(pipeline.contacts(), expected, frame_);
     const bool is_swept = frame_.input.is_swept();
     const bool is_within = cell.collider.distance.has_value();
-    const std::string& narrow = cell.collider.narrow;  // "none": of --within, or the collider's own
-    if (narrow == "none" || find_narrow_method(narrow).is_exact)
+    const std::string& narrow = cell.collider.narrow;  // "none" of --within
+    const bool own = pipeline.collider().finds_contacts();
+    if (own ? !is_swept : narrow == "none" || find_narrow_method(narrow).is_exact)
         contacts.add_differences("contacts", check);
     else
         check_inexact(contacts.list(), expected.list().list,
-                      !find_narrow_method(narrow).misses_none(), cell);
+                      !own && !find_narrow_method(narrow).misses_none(), cell);
     found.contacts = contacts.in_file(check.contacts_hash);
     if (const std::vector<double> off = pipeline.distance_errors(frame_.input); !off.empty()) {
         cell.counters["distance_error_median"] = off[off.size() / 2];

@@ -67,19 +67,21 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         skip_rules_off(collider.rules_off, collider.rules_forced, on_cpu, input.triangle_count()) |
         rules_without(collider);
     collider_ = make_collider(used, session.programs());
-    if (input.is_swept() && collider_->finds_contacts())
+    const bool from_outside = find_collider(collider.name).outside != nullptr;
+    if (input.is_swept() && collider_->finds_contacts() && !from_outside)
         throw BadUsage("swept boxes are of the way between two frames, and the collider " +
                        collider.name + " looks at one moment");
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
     check_trees(collider, *collider_, builder_.get());
-    if (collider.distance && (collider_->is_on_host() || collider_->finds_contacts() ||
-                              (builder_ && builder_->card().runs != BuilderCard::Runs::on_device) ||
-                              (builder_ && find_builder(choice_.name).outside != nullptr)))
-        throw BadUsage("'within' pads boxes on the device: a builder or collider " +
-                       std::string("of the host or from outside does without"));
+    const bool pads = collider.distance && !from_outside;
+    if (pads && (collider_->is_on_host() || collider_->finds_contacts() ||
+                 (builder_ && builder_->card().runs != BuilderCard::Runs::on_device) ||
+                 (builder_ && find_builder(choice_.name).outside != nullptr)))
+        throw BadUsage("'within' pads boxes on the device: a collider of the host and a " +
+                       std::string("builder of the host or from outside do without"));
     reserve_for(input);
-    if (collider.distance) {
+    if (pads) {
         within_.emplace(session.programs(), WithinOptions{.distance = *collider.distance,
                                                           .method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,

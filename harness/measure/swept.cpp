@@ -36,7 +36,8 @@ std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
 /// Checks what was found against the ground truth of this step: contacts, if there are any, must include what collides.
 void judge_step(const Question& question, const GroundTruth& truth, const Found& found, Cell& cell)
 {
-    const bool has_contacts = cell.collider.narrow != "none";
+    const bool has_pairs = !find_collider(cell.collider.name).finds_contacts;
+    const bool has_contacts = !has_pairs || cell.collider.narrow != "none";
     const GroundTruth::Pairs& listed = truth.*(has_contacts ? question.touching : question.listed);
     const std::optional<std::uint64_t>& counted = truth.*question.counted;
     if (!listed.empty()) {
@@ -47,7 +48,7 @@ void judge_step(const Question& question, const GroundTruth& truth, const Found&
         if (missed > 0)
             cell.check.find_wrong(std::to_string(missed) + " pairs of the ground truth are missed");
     }
-    if (counted) {
+    if (counted && has_pairs) {
         cell.counters["reference_pairs_count"] = static_cast<double>(*counted);
         cell.check.against += ", meta.json";
         const bool may_be_more = find_box_format(cell.builder.boxes).has_cells();

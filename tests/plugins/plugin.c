@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * A plug-in for tests: a tree that halves the triangles in their given order, all pairs by comparing every two boxes, and queries of moving
+ * A plug-in for tests: a tree that halves the triangles in their given order, all pairs by comparing every two boxes, of a frame, of a step
+ * or within a distance, which is right if it is that of the boxes, and queries of moving
  * points all of which are said to touch at the start, so that it misses none. It is right, unless its file is called fault-NAME.so, where
  * NAME is a way in which it is to be wrong. Its methods are then called halves-NAME, every-two-NAME and at-the-start-NAME.
  */
@@ -8,7 +9,9 @@
 
 #include <dlfcn.h>
 #include <float.h>
+#include <math.h>
 #include <signal.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +21,7 @@
 
 typedef struct State {
     bvhbench_mesh mesh;
-    const float *points;
+    const float *points, *end_points; /* the same, but in a step */
     bvhbench_node *nodes;
     uint64_t node_count;
     uint32_t *entries;
@@ -103,7 +106,14 @@ static int load(void *state, const float *points)
     if (is("writes-points"))
         for (int axis = 0; axis < 3; ++axis)
             ((float *)points)[axis] = 1e30f;
-    ((State *)state)->points = points;
+    ((State *)state)->points = ((State *)state)->end_points = points;
+    return 0;
+}
+
+static int load_step(void *state, const float *start, const float *end)
+{
+    load(state, start);
+    ((State *)state)->end_points = end;
     return 0;
 }
 
@@ -112,8 +122,9 @@ static void box_of(const State *s, uint32_t triangle, float *low, float *high)
     for (int axis = 0; axis < 3; ++axis) {
         low[axis] = FLT_MAX;
         high[axis] = -FLT_MAX;
-        for (int corner = 0; corner < 3; ++corner) {
-            const float x = s->points[3 * s->mesh.faces[3 * triangle + corner] + axis];
+        for (int corner = 0; corner < 6; ++corner) {
+            const float *const points = corner < 3 ? s->points : s->end_points;
+            const float x = points[3 * s->mesh.faces[3 * triangle + corner % 3] + axis];
             low[axis] = x < low[axis] ? x : low[axis];
             high[axis] = x > high[axis] ? x : high[axis];
         }
@@ -218,9 +229,19 @@ static int refit(void *state, bvhbench_stages *stages)
     return 0;
 }
 
-static int query(void *state, bvhbench_stages *stages)
+static int is_sought(const State *s, uint32_t a, uint32_t b)
+{
+    int shared = 0;
+    for (int k = 0; k < 9; ++k)
+        shared |= s->mesh.faces[3 * a + k / 3] == s->mesh.faces[3 * b + k % 3];
+    return !(shared && s->mesh.drops_adjacent) &&
+           (s->mesh.first == 0 || (a < s->mesh.first && b >= s->mesh.first));
+}
+
+static int query_within(void *state, double distance, bvhbench_stages *stages)
 {
     State *s = state;
+    int added = !is("false-pair");
     begin(stages, "broad");
     s->pair_count = 0;
     for (uint32_t a = 0; a < s->mesh.triangles; ++a) {
@@ -229,10 +250,14 @@ static int query(void *state, bvhbench_stages *stages)
         for (uint32_t b = a + 1; b < s->mesh.triangles; ++b) {
             float other_low[3], other_high[3];
             box_of(s, b, other_low, other_high);
-            int meets = 1;
-            for (int axis = 0; axis < 3; ++axis)
-                meets = meets && low[axis] <= other_high[axis] && other_low[axis] <= high[axis];
-            if (!meets)
+            double gaps = 0; /* their squares */
+            for (int axis = 0; axis < 3; ++axis) {
+                const double gap = fmax(0, fmax((double)low[axis] - other_high[axis],
+                                                (double)other_low[axis] - high[axis]));
+                gaps += gap * gap;
+            }
+            const int meets = gaps <= distance * distance;
+            if (!is_sought(s, a, b) || (!meets && added++))
                 continue;
             if (s->pair_count == s->pair_room) {
                 s->pair_room = 2 * s->pair_room + 64;
@@ -246,6 +271,8 @@ static int query(void *state, bvhbench_stages *stages)
     return 0;
 }
 
+static int query(void *state, bvhbench_stages *stages) { return query_within(state, 0, stages); }
+
 static int pairs(void *state, uint64_t *count, const uint32_t **two_each)
 {
     State *s = state;
@@ -253,6 +280,8 @@ static int pairs(void *state, uint64_t *count, const uint32_t **two_each)
     *two_each = s->pairs;
     if (is("missed-pair") && s->pair_count > 0)
         --*count;
+    if (is("no-contacts"))
+        *count = 0;
     if (is("false-triangle") && s->pair_count > 0)
         s->pairs[0] = (uint32_t)s->mesh.triangles;
     if (is("no-array")) {
@@ -337,7 +366,11 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
          .build = build,
          .refit = refit,
          .tree = tree},
-        {.name = "every-two", .summary = "no tree: every two boxes", OF_PAIRS},
+        {.name = "every-two",
+         .summary = "no tree: every two boxes",
+         OF_PAIRS,
+         .load_step = load_step,
+         .query_within = query_within},
         {.name = "at-the-start",
          .summary = "all touch at the start",
          .create = create,
@@ -349,14 +382,22 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
     static bvhbench_plugin plugin = {
         BVHBENCH_PLUGIN_ABI, "Halves", "1.0", "MIT", "host", 3, methods};
     static char names[3][64];
-    (void)host_abi;
     find_fault();
+    if (is("old-host") || (is("version-2") && host_abi != 2))
+        return NULL;
     for (int k = 0; k < 3 && planted[0] != '\0'; ++k) {
         snprintf(names[k], sizeof names[k], "%s-%s", methods[k].name, planted);
         methods[k].name = names[k];
     }
-    if (is("old-host"))
-        return NULL;
+    if (is("version-2")) { /* as it was compiled then */
+        const size_t bytes = offsetof(bvhbench_method, load_step);
+        for (size_t k = 0; k < 3; ++k)
+            memmove((char *)methods + k * bytes, &methods[k], bytes);
+        plugin.abi = 2;
+        return &plugin;
+    }
+    if (is("contacts") || is("no-contacts"))
+        methods[1].finds_contacts = 1;
     if (is("abi"))
         plugin.abi = BVHBENCH_PLUGIN_ABI + 1;
     if (is("dies-at-start"))

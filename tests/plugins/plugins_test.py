@@ -264,8 +264,8 @@ def test_one_that_takes_too_much_memory_is_ended_with_all_that_it_started():
 
 
 STARTS = {  # fault of the library: what is said when it starts
-    "abi": "it was made for version 3 of the interface, and this is version 2",
-    "old-host": "it does not serve version 2 of the interface",
+    "abi": "it was made for version 4 of the interface, and this is version 3",
+    "old-host": "it does not serve version 3 of the interface",
     "dies-at-start": "in `hello`: it crashed (signal 6)",
     "taken-name": "has a method 'karras', and there is a builder or collider of that name",
     "bad-name": "it calls a method 'Halves!'; a name is up to 64 small letters, digits and hyphens",
@@ -318,11 +318,28 @@ def test_our_colliders_query_the_tree_of_a_builder():
     agree(cells("collide", "--plugin", GOOD, "--builder", "halves", "--collider", "leaf,group,block,bvtt", *QUICK), "leaf", "group", "block", "bvtt")
 
 
-def test_what_a_method_cannot_do_is_skipped():
-    for words, sentence in (((*QUICK, "--adjacent", "drop"), "takes neither 'pairs_of' nor 'adjacent'"),
-                            (("--scene", "cloth-ball:200:2", "--samples", "1", "--swept"), "")):
-        one = cells("collide", "--plugin", GOOD, "--collider", "halves,brute", *words)["halves"]
-        assert one["status"] == "skipped" and sentence in one["reason"], one
+def test_pairs_of_a_step_and_within_a_distance_are_held_to_the_oracles_and_skipped_where_a_method_does_not_say_it_can():
+    rows = [f"v {x} {y} {z}" for x in (0, 1, 3, 6) for y, z in ((0, 0), (4, 0), (0, 4))] + ["v -0.5 1 1", "v 0.5 1 1", "v 0.5 1.2 1"]
+    pathlib.Path("rows.obj").write_text("\n".join(rows + [f"f {k} {k + 1} {k + 2}\n" for k in range(1, 16, 3)]))
+    wrong_ones = wrong("--plugin", *(faults := ("missed-pair", "false-pair", "contacts", "no-contacts")))
+    step, rows = ("--scene", "cloth-ball:200:2", "--swept"), ("--scene", "rows.obj")
+    for words, contacts, sentence in (((*step, "--pairs-of", "between"), "counted", "knows no swept boxes"),
+                                      ((*step, "--pairs-of", "within"), "counted", "knows no swept boxes"),
+                                      ((*rows, "--within", "2"), "agrees", "does not say that it finds pairs within a distance"),
+                                      ((*rows, "--narrow", "exact", "--adjacent", "drop"), "agrees", "it takes no 'adjacent'"),
+                                      ((*step[:2], "--pairs-of", "between"), "", "it takes no 'pairs_of'")):
+        found = cells("collide", "--plugin", GOOD, *wrong_ones, "--collider", named("every-two", faults, "every-two", "halves", "brute"),
+                      *words, "--samples", "1", code=1 if contacts else 0)
+        assert found["halves"]["status"] == "skipped" and sentence in found["halves"]["reason"], found
+        if contacts:
+            agree(found, "every-two")
+            assert found["every-two-contacts"]["check"]["verdict"] == contacts, found
+            for fault in ("missed-pair", "false-pair", "no-contacts"):
+                differs(found[f"every-two-{fault}"])
+    # An inexact narrow phase makes no claim about contacts that a method finds itself.
+    inexact = ("--narrow", "guigue-f32", "--adjacent", "drop")
+    agree(cells("collide", *wrong_ones, "--collider", "every-two-contacts", *rows, *inexact), "every-two-contacts")
+    agree(cells("collide", *wrong("--plugin", "version-2"), "--collider", "every-two-version-2", *QUICK), "every-two-version-2")
 
 
 def test_it_ends_with_the_program_that_started_it():

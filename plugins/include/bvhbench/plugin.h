@@ -7,12 +7,13 @@
  *
  *     create, prepare, load, then any number of build, refit, query, pairs and tree, with a load before every new frame, destroy
  *
- * or, for a method that answers single queries of moving points, `accuracy --axis queries`,
+ * with load_step in place of load for `collide --swept`, and query_within in place of query for `collide --within`; or, for a method that
+ * answers single queries of moving points, `accuracy --axis queries`,
  *
  *     create, load_queries, then any number of answer and times, destroy
  *
- * Only build, refit, query and answer are timed: their stages by the plug-in, and each whole call by bvhbench. Both times are shown.
- * Inputs are in host memory. Uploads belong into prepare and the loads, which are not timed, as bvhbench's own uploads are not.
+ * Only build, refit, query, query_within and answer are timed: their stages by the plug-in, and each whole call by bvhbench. Both times
+ * are shown. Inputs are in host memory. Uploads belong into prepare and the loads, which are not timed, as bvhbench's own uploads are not.
  *
  * A function that returns int returns 0, or anything else if it failed; `error` then says why in one sentence. Arrays that the
  * plug-in gives are the plug-in's and stay valid until the next call; faces stay valid until `destroy`, points and queries until the
@@ -30,14 +31,19 @@
 extern "C" {
 #endif
 
-/* Version of this interface. bvhbench refuses a plug-in of another version. */
-#define BVHBENCH_PLUGIN_ABI 2u
+/* Version of this interface. A plug-in of version 2, whose methods end at `times`, is served as well; one of another version is refused. */
+#define BVHBENCH_PLUGIN_ABI 3u
 
-/* The mesh of all frames. All objects are one set of triangles, and pairs are sought among all of them. */
+/* The mesh of all frames. All objects are one set of triangles, and pairs are sought among all of them; from a method with load_step, those
+ * that the last two members leave. A step has two meshes: vertices, which are triangles of three equal corners, and behind them the faces;
+ * and edges, whose last two corners are equal. */
 typedef struct bvhbench_mesh {
     uint64_t vertices;
     uint64_t triangles;    /* 1 or more */
     const uint32_t *faces; /* three vertices a triangle */
+    /* If not 0: only pairs of one of the first triangles, as many as this, and one of the others. */
+    uint64_t first;
+    uint32_t drops_adjacent; /* 1: no pairs that share a vertex */
 } bvhbench_mesh;
 
 /* A part of a timed call: bounds, codes, sort, order, gather, hierarchy, refit, broad or narrow, or `build` for all up to a tree.
@@ -101,7 +107,7 @@ typedef struct bvhbench_method {
 
     /* Pairs of the last query, each once: two triangles, in any order. Not timed. Boxes are closed: those that touch overlap. */
     int (*pairs)(void *state, uint64_t *count, const uint32_t **two_each);
-    /* 1 if `pairs` gives triangles that intersect, 0 if it gives triangles whose boxes overlap. */
+    /* 1 if `pairs` gives triangles that intersect, after load_step those that touch on the way; 0 if it gives triangles whose boxes overlap. */
     uint32_t finds_contacts;
 
     /* The last tree, to judge it by. Not timed. */
@@ -120,6 +126,12 @@ typedef struct bvhbench_method {
     /* The last answers, one a query: a time from 0 to 1 before which the two do not touch, or one above 1 if they do not touch at all. Not
      * timed. */
     int (*times)(void *state, const double **times);
+
+    /* Takes the points of a step in place of those of a frame, at its start and at its end, three floats a vertex each. A vertex moves in a
+     * straight line, and a triangle's box is around it at both. Not timed. */
+    int (*load_step)(void *state, const float *start, const float *end);
+    /* As query, of triangles whose distance is at most `distance`, exactly, in the unit of the points. `pairs` gives them. */
+    int (*query_within)(void *state, double distance, bvhbench_stages *stages);
 } bvhbench_method;
 
 typedef struct bvhbench_plugin {
