@@ -94,18 +94,20 @@ Method method_of(const Json& entry)
     method.answers = truth_at(entry, "answer");
     method.steps = truth_at(entry, "steps");
     method.within = truth_at(entry, "within");
-    if (method.queries && !truth_at(entry, "pairs"))
-        throw Unavailable("its method " + method.name +
-                          " has `query` without `pairs`, by which a query is judged");
+    method.narrows = truth_at(entry, "narrow");
+    if ((method.queries || method.narrows) && !truth_at(entry, "pairs"))
+        throw Unavailable("its method " + method.name + " has `" +
+                          (method.queries ? "query" : "narrow") +
+                          "` without `pairs`, by which it is judged");
     if ((method.steps || method.within) && !method.queries)
         throw Unavailable("its method " + method.name +
                           " has `load_step` or `query_within` without `query`");
     if (method.refits && !method.builds)
         throw Unavailable("its method " + method.name + " has `refit` without `build`");
-    if (!method.is_builder() && !method.queries && !method.answers)
+    if (!method.is_builder() && !method.queries && !method.answers && !method.narrows)
         throw Unavailable("its method " + method.name +
-                          " cannot be judged: it has neither `build` with `tree` nor `query` with "
-                          "`pairs` nor `answer` with `times`");
+                          " cannot be judged: it has neither `build` with `tree` nor `query` or "
+                          "`narrow` with `pairs` nor `answer` with `times`");
     return method;
 }
 

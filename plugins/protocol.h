@@ -36,6 +36,7 @@ struct Method {
     bool answers = false;  ///< single queries of moving points
     bool steps = false;    ///< finds pairs of a step too, and of those leaves out what a mesh says
     bool within = false;   ///< finds pairs within a distance too
+    bool narrows = false;  ///< tests given pairs of triangles
 
     bool is_builder() const { return builds && has_tree; }
 };

@@ -121,6 +121,12 @@ bool State::send_frame(const Input& input, const Sought& sought)
     return true;
 }
 
+void State::send_candidates(std::span<const Pair> pairs)
+{
+    const MemoryFile file(bytes_of(pairs));
+    process_->ask({{"call", "candidates"}, {"count", pairs.size()}, {"candidates", file.path()}});
+}
+
 void State::run(std::string_view call, Queue& queue, std::optional<double> within)
 {
     Json request = {{"call", call}};

@@ -35,7 +35,10 @@ public:
     /// Starts the process and gives it queries, all of a vertex and a face or all of two edges. Not timed.
     void send_queries(std::span<const MovingQuery> queries);
 
-    /// Runs `build`, `refit`, `query` or `answer`, a query `within` a distance if there is one, and adds its stages and the time of the call to the queue. After a pause, in which others are
+    /// Gives it pairs of the frame's triangles to test. Not timed.
+    void send_candidates(std::span<const Pair> pairs);
+
+    /// Runs `build`, `refit`, `query`, `answer` or `narrow`, a query `within` a distance if there is one, and adds its stages and the time of the call to the queue. After a pause, in which others are
     /// sampled, allocations of a library take up to twice as long as in a loop of its own: a short build runs once before, untimed.
     void run(std::string_view call, Queue& queue, std::optional<double> within = {});
 

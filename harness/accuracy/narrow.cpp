@@ -12,6 +12,7 @@
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
 #include "harness/judge/pair_counts.h"
+#include "plugins/state.h"
 #include "scenes/generate/pair_classes.h"
 
 namespace bvhbench {
@@ -75,22 +76,55 @@ std::int64_t moved_bytes(const PairList& found, const Piece& piece)
     return corner_bytes(piece.pairs, piece.input) + pairs * static_cast<std::int64_t>(sizeof(Pair));
 }
 
+void put(Cell& cell, const char* name, auto value)
+{
+    cell.counters[name] = static_cast<double>(value);
+}
+
 /// Writes what a method found in a piece to its cell.
-void count_piece(const NarrowPhase& narrow, const PairList& found, const Piece& piece,
-                 const Queue& queue, Cell& cell)
+void count_piece(const PairList& found, const Piece& piece, Cell& cell)
 {
     const Differences wrong = differences(found, piece.meeting);
-    const NarrowCounts counts = narrow.counts(queue);
-    const auto put = [&](const char* name, auto value) {
-        cell.counters[name] = static_cast<double>(value);
+    put(cell, "pairs_count", piece.pairs.size());
+    put(cell, "meeting_count", piece.meeting.size());
+    put(cell, "missed_count", wrong.missed);
+    put(cell, "false_count", wrong.false_ones);
+}
+
+/// Writes how many pairs a narrow phase of ours decided in which arithmetic.
+void count_arithmetic(const NarrowCounts& counts, Cell& cell)
+{
+    put(cell, "narrow_float_count", counts.by_floats);
+    put(cell, "narrow_double_count", counts.by_doubles);
+    put(cell, "narrow_exact_count", counts.exactly);
+}
+
+/// Returns the names of our narrow phases, and of those from outside behind them.
+std::vector<std::string> method_names()
+{
+    std::vector<std::string> names;
+    for (const NarrowMethod& method : narrow_methods(NarrowOf::moment))
+        names.emplace_back(method.name);
+    for (const outside::Offer* offer : outside_offers())
+        if (offer->method.narrows)
+            names.push_back(offer->method.name);
+    return names;
+}
+
+AxisMethod from_outside(Session& session, const outside::Offer& offer, const Piece& piece)
+{
+    const auto prepare = [&](Measurement& one) {
+        const auto state =
+            std::make_shared<outside::State>(offer.library, offer.method, offer.limits);
+        state->send_frame(piece.input);
+        state->send_candidates(piece.pairs);
+        one.once = [&, state] {
+            state->run("narrow", session.queue());
+            return session.queue().finish();
+        };
+        one.judge_again = [&, state] { count_piece(PairList(state->pairs()), piece, one.cell); };
     };
-    put("pairs_count", piece.pairs.size());
-    put("meeting_count", piece.meeting.size());
-    put("missed_count", wrong.missed);
-    put("false_count", wrong.false_ones);
-    put("narrow_float_count", counts.by_floats);
-    put("narrow_double_count", counts.by_doubles);
-    put("narrow_exact_count", counts.exactly);
+    return {.name = offer.method.name, .prepare = prepare};
 }
 
 /// Adds a cell for each method. Looks at the contacts before and after timing, because a race may strike in some runs only.
@@ -116,11 +150,15 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
                 const PairList found = contacts_of(*narrow, piece, session);
                 if (found.hash() != hash)
                     throw Unavailable("it found other contacts after the samples than before");
-                count_piece(*narrow, found, piece, session.queue(), one.cell);
+                count_piece(found, piece, one.cell);
+                count_arithmetic(narrow->counts(session.queue()), one.cell);
             };
         };
         methods.push_back({.name = std::string(method.name), .prepare = prepare});
     }
+    for (const outside::Offer* offer : outside_offers())
+        if (offer->method.narrows)
+            methods.push_back(from_outside(session, *offer, piece));
     SceneFacts facts;
     facts.name = name;
     measure_methods(run, "narrow", facts, methods);
@@ -142,6 +180,8 @@ void add_piece(Cell& all, Cell&& piece)
         const StageTime& time = piece.samples[k].stages.front();
         sum.busy_ns += time.busy_ns;
         sum.span_ns += time.span_ns;
+        sum.wall_ns += time.wall_ns;
+        all.samples[k].wall_ns += piece.samples[k].wall_ns;
         sum.launches += time.launches;
         sum.moved_bytes += time.moved_bytes;
     }
@@ -150,9 +190,9 @@ void add_piece(Cell& all, Cell&& piece)
 void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 {
     std::vector<Cell> cells;  // each the sum over the pieces
-    for (const NarrowMethod& method : narrow_methods(NarrowOf::moment))
-        if (run.task.wants(of.name, method.name))
-            cells.push_back(accuracy_cell("narrow", method.name, {}));
+    for (const std::string& method : method_names())
+        if (run.task.wants(of.name, method))
+            cells.push_back(accuracy_cell("narrow", method, {}));
     std::size_t next = 0;
     const AxisRun of_pieces{run.session, run.task, run.order, run.progress, [&](Cell&& cell) {
                                 add_piece(cells[next++ % cells.size()], std::move(cell));
@@ -187,7 +227,9 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
             run.engine().refuse(all, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                                 failure);
         else if (all.cell.status == Cell::Status::measured)
-            judge_errors(all.cell, "CGAL", find_narrow_method(all.cell.accuracy.method).is_exact);
+            judge_errors(all.cell, "CGAL",
+                         outside_library(all.cell.accuracy.method) == nullptr &&
+                             find_narrow_method(all.cell.accuracy.method).is_exact);
         run.add(std::move(all.cell));
     }
 }
@@ -198,8 +240,8 @@ void measure_narrow(const AxisRun& run)
 {
     std::vector<const PairClass*> wanted;
     for (const PairClass& of : pair_classes())
-        if (std::ranges::any_of(narrow_methods(NarrowOf::moment), [&](const NarrowMethod& method) {
-                return run.task.wants(of.name, method.name);
+        if (std::ranges::any_of(method_names(), [&](const std::string& method) {
+                return run.task.wants(of.name, method);
             }))
             wanted.push_back(&of);
     const std::size_t pairs = run.task.pairs;

@@ -68,6 +68,9 @@ std::vector<PipelineChoice> pipelines()
                                        {{.name = "none"}, {.name = "grid"}}};
     if (find_collider("embree").make != nullptr)
         all.push_back({{.name = "none"}, {.name = "embree"}});
+    for (const ColliderEntry& entry : collider_catalog())
+        if (entry.outside != nullptr && entry.outside->method.steps)
+            all.push_back({{.name = "none"}, {.name = std::string(entry.name)}});
     return all;
 }
 

@@ -49,11 +49,11 @@ class Point(NamedTuple):
     method: str
 
 
-OUTSIDE = Look("#000000", "*")  # of methods from outside, which answer single queries
+OUTSIDE = Look("#000000", "*")  # of methods from outside, which answer single queries or test pairs
 
 
 def look(axis: str, method: str) -> Look:
-    if axis == "queries" and method not in METHODS[axis]:
+    if axis in ("queries", "narrow") and method not in METHODS[axis]:
         return OUTSIDE
     if method not in METHODS[axis]:
         raise results.Refused(f"plots/figures/accuracy_points.py has no look for the method '{method}' of {axis}: add a line to METHODS")

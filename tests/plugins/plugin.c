@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * A plug-in for tests: a tree that halves the triangles in their given order, all pairs by comparing every two boxes, of a frame, of a step
- * or within a distance, which is right if it is that of the boxes, and queries of moving
- * points all of which are said to touch at the start, so that it misses none. It is right, unless its file is called fault-NAME.so, where
+ * or within a distance, which is right if it is that of the boxes, a narrow phase to which all candidates meet, and queries of moving points
+ * all of which are said to touch at the start, so that it misses none. It is right, unless its file is called fault-NAME.so, where
  * NAME is a way in which it is to be wrong. Its methods are then called halves-NAME, every-two-NAME and at-the-start-NAME.
  */
 #include <bvhbench/plugin.h>
@@ -28,6 +28,8 @@ typedef struct State {
     uint64_t entry_count;
     uint32_t *pairs;
     uint64_t pair_count, pair_room;
+    const uint32_t *candidates;
+    uint64_t candidate_count;
     double *times;
     uint64_t time_count;
     const char *error;
@@ -273,6 +275,25 @@ static int query_within(void *state, double distance, bvhbench_stages *stages)
 
 static int query(void *state, bvhbench_stages *stages) { return query_within(state, 0, stages); }
 
+static int load_candidates(void *state, uint64_t count, const uint32_t *two_each)
+{
+    State *s = state;
+    s->candidates = two_each;
+    s->candidate_count = count;
+    s->pairs = realloc(s->pairs, 2 * count * sizeof *s->pairs);
+    return 0;
+}
+
+static int narrow(void *state, bvhbench_stages *stages)
+{
+    State *s = state;
+    begin(stages, "narrow");
+    s->pair_count = s->candidate_count;
+    memcpy(s->pairs, s->candidates, 2 * s->pair_count * sizeof *s->pairs);
+    end(stages);
+    return 0;
+}
+
 static int pairs(void *state, uint64_t *count, const uint32_t **two_each)
 {
     State *s = state;
@@ -370,7 +391,9 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
          .summary = "no tree: every two boxes",
          OF_PAIRS,
          .load_step = load_step,
-         .query_within = query_within},
+         .query_within = query_within,
+         .load_candidates = load_candidates,
+         .narrow = narrow},
         {.name = "at-the-start",
          .summary = "all touch at the start",
          .create = create,

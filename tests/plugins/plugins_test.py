@@ -143,6 +143,16 @@ def test_single_queries_are_counted_against_the_oracle():
     assert right["outside"]["name"] == "at-the-start" and "outside" not in ours, right
 
 
+def test_a_narrow_phase_is_counted_against_the_oracle():
+    expect(0, "accuracy", "--axis", "narrow", "--plugin", GOOD, *wrong("--plugin", "no-contacts"), "--samples", "2", "--pairs", "2000",
+           "--filter", "needles/(every-two|guigue-f64)", "--out", "n", says="every-two: 0 missed and ")
+    ours, right, misses = valid("n/accuracy-narrow.json")["cells"]
+    pairs, meet = (ours["counters"][key] for key in ("pairs_count", "meeting_count"))
+    counts = [[cell["counters"][key] for key in ("missed_count", "false_count")] for cell in (right, misses)]
+    assert counts == [[0, pairs - meet], [meet, 0]] and 0 < meet < pairs and right["samples"][0]["wall_ns"] > 0, counts
+    assert right["outside"]["name"] == "every-two" and right["check"]["verdict"] == "counted", right
+
+
 def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
     """The program takes 50 times as long as `brute`, and says that it takes a twentieth of its time."""
     slip = wrong("--program", "microseconds")

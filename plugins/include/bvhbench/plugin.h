@@ -12,7 +12,11 @@
  *
  *     create, load_queries, then any number of answer and times, destroy
  *
- * Only build, refit, query, query_within and answer are timed: their stages by the plug-in, and each whole call by bvhbench. Both times
+ * or, for a narrow phase, `accuracy --axis narrow`,
+ *
+ *     create, prepare, load, load_candidates, then any number of narrow and pairs, destroy
+ *
+ * Only build, refit, query, query_within, answer and narrow are timed: their stages by the plug-in, and each whole call by bvhbench. Both times
  * are shown. Inputs are in host memory. Uploads belong into prepare and the loads, which are not timed, as bvhbench's own uploads are not.
  *
  * A function that returns int returns 0, or anything else if it failed; `error` then says why in one sentence. Arrays that the
@@ -20,7 +24,7 @@
  * next load.
  *
  * Every method has create, error and destroy, and what it can be judged by: prepare, load and `build` with `tree`, or `query` with `pairs`,
- * or both; or load_queries and `answer` with `times`.
+ * or both; or load_queries and `answer` with `times`; or prepare, load, load_candidates and `narrow` with `pairs`.
  */
 #ifndef BVHBENCH_PLUGIN_H
 #define BVHBENCH_PLUGIN_H
@@ -132,6 +136,11 @@ typedef struct bvhbench_method {
     int (*load_step)(void *state, const float *start, const float *end);
     /* As query, of triangles whose distance is at most `distance`, exactly, in the unit of the points. `pairs` gives them. */
     int (*query_within)(void *state, double distance, bvhbench_stages *stages);
+
+    /* Takes pairs to be tested, two triangles each. They stay valid until the next load. Not timed. */
+    int (*load_candidates)(void *state, uint64_t count, const uint32_t *two_each);
+    /* From these to those that intersect, which `pairs` gives: the stage `narrow`. */
+    int (*narrow)(void *state, bvhbench_stages *stages);
 } bvhbench_method;
 
 typedef struct bvhbench_plugin {
