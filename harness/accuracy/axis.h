@@ -116,6 +116,9 @@ CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
                        std::span<const Face> faces, std::span<const FaceRange> objects,
                        GridOver grid = GridOver::object);
 
+/// Returns the longest side of the bounding box of at least one point.
+double longest_side(std::span<const Point> points);
+
 /// Returns a scene in doubles, like those of simulations: `points` rotated, then moved along all axes by `sizes` times the
 /// longest side of their bounding box, computed in double.
 std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes);

@@ -7,6 +7,7 @@
 #include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
 #include "harness/accuracy/axis.h"
+#include "harness/accuracy/error_sizes.h"
 
 namespace bvhbench {
 namespace {
@@ -50,7 +51,8 @@ std::vector<FrameSetting> frame_settings()
 }  // namespace
 
 /// Measures what the frame takes and which contacts are wrong. Only the input's rounding and the narrow phase can make contacts
-/// wrong: boxes of fewer bits are rounded outward.
+/// wrong: boxes of fewer bits are rounded outward. Sizes of errors are shares of the longest side of the frame's box, as steps of input
+/// bits are.
 void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     std::vector<FrameSetting> settings = frame_settings();
@@ -73,6 +75,9 @@ void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& in
             const auto judge = [&, rounded](const Pipeline& pipeline, Cell& cell) {
                 const PairList found(pipeline.contacts());
                 count_errors(found, right, cell);
+                ErrorSizes sizes;
+                sizes.add(found, right, input.points, input.faces, longest_side(input.points));
+                sizes.put(cell);
                 cell.check.contacts_hash = found.hash();
                 cell.counters["right_contacts_count"] = static_cast<double>(right.size());
                 judge_errors(cell, "CGAL boxes, CGAL", setting.is_exact());

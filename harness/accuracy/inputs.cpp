@@ -23,7 +23,24 @@ Bounds bounds_of(std::span<const Point> points, std::span<const Face> faces)
     return bounds;
 }
 
+/// Returns the longest side of the points' box; on(axis) is the coordinate's member.
+template <class Points, class On>
+double longest_of(const Points& points, On on)
+{
+    double longest = 0;
+    for (const auto& axis : axes) {
+        const auto [low, high] = std::ranges::minmax(points, {}, on(axis));
+        longest = std::max(longest, double{high.*on(axis)} - double{low.*on(axis)});
+    }
+    return longest;
+}
+
 }  // namespace
+
+double longest_side(std::span<const Point> points)
+{
+    return longest_of(points, [](const auto& axis) { return axis.second; });
+}
 
 CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
                        std::span<const Face> faces, std::span<const FaceRange> objects,
@@ -60,12 +77,7 @@ std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double si
         const double x = c * double{p.x} - s * double{p.y}, y = s * double{p.x} + c * double{p.y};
         turned.push_back({x, c * y - s * double{p.z}, s * y + c * double{p.z}});
     }
-    double longest = 0;
-    for (const auto& [wide, narrow] : axes) {
-        const auto [low, high] = std::ranges::minmax(turned, {}, wide);
-        longest = std::max(longest, high.*wide - low.*wide);
-    }
-    const double by = sizes * longest;
+    const double by = sizes * longest_of(turned, [](const auto& axis) { return axis.first; });
     for (WidePoint& p : turned)
         p = {p.x + by, p.y + by, p.z + by};
     return turned;
@@ -83,13 +95,8 @@ std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how)
 
 std::vector<Point> on_a_grid(std::span<const Point> points, unsigned bits)
 {
-    double longest = 0;
-    for (const auto& [wide, narrow] : axes) {
-        const auto [low, high] = std::ranges::minmax(points, {}, narrow);
-        longest = std::max(longest, double{high.*narrow} - double{low.*narrow});
-    }
     std::vector<Point> moved(points.begin(), points.end());
-    const double cell = longest / (std::exp2(bits) - 1);
+    const double cell = longest_side(points) / (std::exp2(bits) - 1);
     if (!(cell > 0))
         return moved;
     for (const auto& [wide, narrow] : axes) {

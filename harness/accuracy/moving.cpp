@@ -9,6 +9,7 @@
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "harness/accuracy/axis.h"
+#include "harness/accuracy/error_sizes.h"
 #include "harness/base/failure.h"
 #include "harness/choice/catalog.h"
 #include "plugins/state.h"
@@ -41,16 +42,11 @@ void count_answers(const std::vector<double>& found, const Times& right, Cell& c
             gaps.push_back(std::max(0.0, right[k]->no_later - found[k]));
     }
     std::ranges::sort(gaps);
-    const auto place = [&](double share) {
-        return gaps.empty()
-                   ? 0
-                   : gaps[static_cast<std::size_t>(share * static_cast<double>(gaps.size() - 1))];
-    };
     cell.counters["missed_count"] = missed;
     cell.counters["false_count"] = wrong;
     cell.counters["late_count"] = late;
-    cell.counters["gap_median"] = place(0.5);
-    cell.counters["gap_99_percent"] = place(0.99);
+    cell.counters["gap_median"] = value_at(gaps, 0.5);
+    cell.counters["gap_99_percent"] = value_at(gaps, 0.99);
     cell.counters["shortened_mean"] = shortened / static_cast<double>(found.size());
 }
 

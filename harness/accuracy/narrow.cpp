@@ -2,6 +2,7 @@
 //
 // The axis narrow: narrow phases over classes of triangle pairs, against CGAL's exact predicates.
 #include <algorithm>
+#include <map>
 
 #include "collide/narrow/narrow.h"
 #include "collide/oracles/exact_reference.h"
@@ -10,6 +11,7 @@
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/accuracy/axis.h"
+#include "harness/accuracy/error_sizes.h"
 #include "harness/base/failure.h"
 #include "harness/judge/pair_counts.h"
 #include "plugins/state.h"
@@ -20,6 +22,9 @@ namespace {
 
 /// Bytes of host memory per pair: six corners, two faces, and several copies of the pair.
 constexpr std::size_t host_bytes_a_pair = 240;
+
+/// Pairs of a piece whose errors are sized, of each kind: the distance of triangles that nearly touch takes 0.1 ms, in integers.
+constexpr std::size_t sized_pairs = 1000;
 
 /// Returns the pairs of a mesh made of pairs: triangles 0 and 1, 2 and 3, and so on.
 std::vector<Pair> pairs_of_neighbours(const Mesh& mesh)
@@ -82,8 +87,9 @@ void put(Cell& cell, const char* name, auto value)
 }
 
 /// Writes what a method found in a piece to its cell.
-void count_piece(const PairList& found, const Piece& piece, Cell& cell)
+void count_piece(const PairList& found, const Piece& piece, ErrorSizes& sizes, Cell& cell)
 {
+    sizes.add(found, piece.meeting, piece.mesh.points, piece.mesh.faces, 0, sized_pairs);
     const Differences wrong = differences(found, piece.meeting);
     put(cell, "pairs_count", piece.pairs.size());
     put(cell, "meeting_count", piece.meeting.size());
@@ -111,7 +117,8 @@ std::vector<std::string> method_names()
     return names;
 }
 
-AxisMethod from_outside(Session& session, const outside::Offer& offer, const Piece& piece)
+AxisMethod from_outside(Session& session, const outside::Offer& offer, const Piece& piece,
+                        ErrorSizes& sizes)
 {
     const auto prepare = [&](Measurement& one) {
         const auto state =
@@ -122,13 +129,19 @@ AxisMethod from_outside(Session& session, const outside::Offer& offer, const Pie
             state->run("narrow", session.queue());
             return session.queue().finish();
         };
-        one.judge_again = [&, state] { count_piece(PairList(state->pairs()), piece, one.cell); };
+        one.judge_again = [&, state] {
+            count_piece(PairList(state->pairs()), piece, sizes, one.cell);
+        };
     };
     return {.name = offer.method.name, .prepare = prepare};
 }
 
+/// Of each method, over all pieces of a class. Shares of each pair's own box: pairs of one class differ in size.
+using SizesOfMethods = std::map<std::string, ErrorSizes>;
+
 /// Adds a cell for each method. Looks at the contacts before and after timing, because a race may strike in some runs only.
-void measure_piece(const AxisRun& run, const std::string& name, const Piece& piece)
+void measure_piece(const AxisRun& run, const std::string& name, const Piece& piece,
+                   SizesOfMethods& sizes)
 {
     Session& session = run.session;
     std::vector<AxisMethod> methods;
@@ -150,7 +163,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
                 const PairList found = contacts_of(*narrow, piece, session);
                 if (found.hash() != hash)
                     throw Unavailable("it found other contacts after the samples than before");
-                count_piece(found, piece, one.cell);
+                count_piece(found, piece, sizes[std::string(method.name)], one.cell);
                 count_arithmetic(narrow->counts(session.queue()), one.cell);
             };
         };
@@ -158,7 +171,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
     }
     for (const outside::Offer* offer : outside_offers())
         if (offer->method.narrows)
-            methods.push_back(from_outside(session, *offer, piece));
+            methods.push_back(from_outside(session, *offer, piece, sizes[offer->method.name]));
     SceneFacts facts;
     facts.name = name;
     measure_methods(run, "narrow", facts, methods);
@@ -197,6 +210,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
     const AxisRun of_pieces{run.session, run.task, run.order, run.progress, [&](Cell&& cell) {
                                 add_piece(cells[next++ % cells.size()], std::move(cell));
                             }};
+    SizesOfMethods sizes;
     Hash hash;
     uint seed = run.task.seed;
     bool cannot_be = false;
@@ -209,7 +223,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
                 require_host_memory("a class of pairs", host_bytes_a_pair * count);
                 const Piece piece(run.session, of, static_cast<uint>(count), seed++);
                 hash.values(std::span<const Point>(piece.mesh.points));
-                measure_piece(of_pieces, of.name, piece);
+                measure_piece(of_pieces, of.name, piece, sizes);
             }
         },
         &cannot_be);
@@ -226,10 +240,12 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
         if (!failure.empty())
             run.engine().refuse(all, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                                 failure);
-        else if (all.cell.status == Cell::Status::measured)
+        else if (all.cell.status == Cell::Status::measured) {
+            sizes[all.cell.accuracy.method].put(all.cell);
             judge_errors(all.cell, "CGAL",
                          outside_library(all.cell.accuracy.method) == nullptr &&
                              find_narrow_method(all.cell.accuracy.method).is_exact);
+        }
         run.add(std::move(all.cell));
     }
 }

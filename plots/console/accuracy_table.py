@@ -8,6 +8,7 @@ from . import spread, swept_table
 
 YARDSTICK = "guigue-f64"
 FRAME_COUNTS = ("pairs_count", "right_contacts_count", "missed_count", "false_count")
+SIZES = ("depth of missed: median/99 %/most", "gap of false")
 NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32", "sat-f32")
 
 
@@ -75,6 +76,12 @@ def inflation(cell: Cell) -> str:
     return f"{cell.counters['pairs_count'] / right:.3f}" if right > 0 else ""
 
 
+def sizes(cells: list[Cell], of: str) -> str:
+    """Returns the median, the 99th percentile and the largest of errors' sizes, each the largest of the cells'; empty without errors."""
+    found = [[cell.counters[f"{of}_{key}"] for key in ("median", "99_percent", "most")] for cell in cells if f"{of}_most" in cell.counters]
+    return "/".join(f"{max(values):.0e}" if max(values) else "0" for values in zip(*found, strict=True))
+
+
 def narrow(cells: list[Cell]) -> str:
     yardsticks = {cell.scene_facts["name"]: ns_a_pair(cell) for cell in reversed(cells)
                   if cell.accuracy["method"] == YARDSTICK and cell.has_times}
@@ -83,11 +90,12 @@ def narrow(cells: list[Cell]) -> str:
         pairs, beside = cell.counters["pairs_count"], yardsticks.get(cell.scene_facts["name"])
         own = ns_a_pair(cell) if cell.has_times else None
         return [*must(cell, "pairs_count", "meeting_count", "missed_count", "false_count"),
+                sizes([cell], "missed_depth"), sizes([cell], "false_gap"),
                 f"{100 * exactly / pairs:.1f} %" if pairs and (exactly := cell.counters.get("narrow_exact_count")) is not None else "",
                 f"{own:.2f}" if own is not None else "",
                 f"{spread.ratio(own, beside):.2f}" if own is not None and beside is not None else ""]
 
-    titles = ("<pairs of triangles", "<narrow phase", "pairs", "meet", "missed", "false", "exactly", "ns/pair", f"of {YARDSTICK}")
+    titles = ("<pairs of triangles", "<narrow phase", "pairs", "meet", "missed", "false", *SIZES, "exactly", "ns/pair", f"of {YARDSTICK}")
     return lines(cells, titles, row, lambda cell: cell.status == "measured") + "".join(totals(cells))
 
 
@@ -109,14 +117,15 @@ def totals(cells: list[Cell]) -> list[str]:
 
 
 def frames(cells: list[Cell]) -> str:
-    """Returns one line for each setting of a scene: times are means over its frames, counts are of all of them."""
-    table = Table("<scene", "<setting", "frames", "frame", "pairs", "contacts", "missed", "false", "<verdict")
+    """Returns one line for each setting of a scene: times are means over its frames, counts are of all of them, sizes those of the worst."""
+    table = Table("<scene", "<setting", "frames", "frame", "pairs", "contacts", "missed", "false", *SIZES, "<verdict")
     for (scene, method), own in grouped(cells, lambda cell: (cell.scene_facts["name"], cell.accuracy["method"])).items():
         if without := [cell for cell in own if not cell.has_times]:
-            table.row(scene, method, *[""] * 6, spread.why(without[0]))
+            table.row(scene, method, *[""] * (6 + len(SIZES)), spread.why(without[0]))
             continue
         table.row(scene, method, str(len(own)), duration(sum(cell.median_ns() for cell in own) / len(own)),
-                  *(whole(sum(cell.counters[key] for cell in own)) for key in FRAME_COUNTS), own[0].verdict)
+                  *(whole(sum(cell.counters[key] for cell in own)) for key in FRAME_COUNTS),
+                  sizes(own, "missed_depth"), sizes(own, "false_gap"), own[0].verdict)
     return table.text()
 
 

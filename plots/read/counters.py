@@ -16,7 +16,7 @@ UNITS_OF_TIME = ("_ns", "_us", "_ms", "_s", "_per_s")
 SIZED_BY_DEVICE = {"scratch_bytes", "query_bytes", "near_bytes", "narrow_bytes", "memory_bytes", "device_peak_bytes",
                    "used_start_level", "used_jump", "earliest_impact"}
 COSTS = {"sah_cost", "sah_inner", "sah_leaf", "sibling_overlap", "depth_max", "depth_mean", "epo", "epo_inner", "epo_leaf",
-         "nodes_count", "missed_count", "false_count", "missed_pairs_count", "false_pairs_count", "relative_error",
+         "nodes_count", "missed_count", "false_count", "missed_pairs_count", "false_pairs_count", "relative_error", "missed_depth_most", "false_gap_most",
          "box_tests_count"}
 
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Distances and closest points of triangles, against CGAL's exact distances, over all classes of difficult pairs.
+// Distances and closest points of triangles, against CGAL's exact distances, over all classes of difficult pairs; and depths of those that
+// meet.
 #include "collide/within/closest.h"
 
 #include <cmath>
 
+#include "collide/within/depth.h"
 #include "collide/within/distance_filter.h"
 #include "tests/all_cases.h"
 #include "tests/collide/narrow_testing.h"
@@ -95,6 +97,40 @@ TEST_P(ClosestTest, AreThoseOfTrianglesOfSeveralPairs)
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ClosestTest, all_classes, ClassName());
+
+TEST(Depth, IsTheShortestMoveAfterWhichTrianglesDoNotMeet)
+{
+    const Mesh mesh = apart_pairs(find_pair_class("generic"), 2'000, 1);
+    Dice dice(1);
+    std::size_t compared = 0;
+    for (uint k = 0; k < mesh.faces.size(); k += 2) {
+        const Corners a = corners_of(mesh.points, mesh.faces[k]),
+                      b = corners_of(mesh.points, mesh.faces[k + 1]);
+        const Vector way = shortest_way_apart(a, b);
+        const double depth = length(way);
+        const auto meet_after = [&](Vector by, double far) {
+            const double factor = far / length(by);
+            Corners moved = b;
+            for (Point& p : moved.at)
+                p = {float(p.x + factor * by.x), float(p.y + factor * by.y),
+                     float(p.z + factor * by.z)};
+            return triangles_meet(a, moved);
+        };
+        if (!triangles_meet(a, b) || depth < 1e-2)
+            continue;
+        ++compared;
+        EXPECT_FALSE(meet_after(way, 1.001 * depth));
+        for (int other = 0; other < 100; ++other) {
+            const Point p = dice.point();
+            EXPECT_TRUE(meet_after({p.x - 0.5, p.y - 0.5, p.z - 0.5}, 0.999 * depth));
+        }
+    }
+    EXPECT_GT(compared, 100u);
+    const Corners flat = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}},
+                  pierced = {{{1, 0, 1}, {0, 1, 1}, {0.5f, 0.5f, -0.25f}}};
+    EXPECT_EQ(std::abs(shortest_way_apart(flat, pierced).z), 0.25);
+    EXPECT_EQ(shortest_way_apart(flat, flat).z, 0) << "it slides out of its plane";
+}
 
 }  // namespace
 }  // namespace bvhbench
