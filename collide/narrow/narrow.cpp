@@ -56,6 +56,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     , options_(options)
     , form_(chosen_form(programs.device(), options.form))
     , has_doubles_(has_doubles(programs.device()) && !options.without_doubles)
+    , is_filter_(find_narrow_method(options.method).is_filter())
     , is_exact_(find_narrow_method(options.method).is_exact)
     , chunks_(chunk_count(programs.device()))
 {
@@ -77,25 +78,28 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     if (method.real_bits == 64 && !has_doubles_)
         throw Unavailable(std::string(method.name) + " needs doubles, which the device has not");
     filter_ = compiled_filter(method);
-    if (is_exact_ && has_doubles_)
-        exact_ = programs.kernel("collide/narrow/narrow_exact.cl", "decide_exactly",
-                                 {{"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u}});
+    if (is_filter_ && !is_exact_)
+        rest_ = programs.kernel("collide/narrow/narrow_undecided.cl", "keep_undecided");
+    else if (is_exact_ && has_doubles_)
+        rest_ = programs.kernel("collide/narrow/narrow_exact.cl", "decide_exactly",
+                                {{"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u}});
 }
 
 cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
 {
     std::vector<Define> defines = {by_groups() ? Define{"GROUP_SIZE", group_size_}
                                                : Define{"SINK_BLOCK", block_pairs_}};
-    if (method.is_exact)
+    const bool with_doubles = has_doubles_ && method.real_bits != 32;
+    if (is_filter_)
         defines.insert(defines.end(), {{"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
-                                       {"WITH_DOUBLES", has_doubles_ ? 1u : 0u}});
+                                       {"WITH_DOUBLES", with_doubles ? 1u : 0u}});
     else
         defines.insert(defines.end(),
                        {{"ROUNDED_TEST", method.rounded_test}, {"REAL_BITS", method.real_bits}});
     const char* const verdict =
-        method.is_exact ? "collide/narrow/verdict.clh" : "collide/narrow/rounded.clh";
+        is_filter_ ? "collide/narrow/verdict.clh" : "collide/narrow/rounded.clh";
     const char* const chunks =
-        method.is_exact ? "collide/narrow/narrow_chunks.cl" : "collide/narrow/rounded_chunks.cl";
+        is_filter_ ? "collide/narrow/narrow_chunks.cl" : "collide/narrow/rounded_chunks.cl";
     return programs_.kernel(verdict, by_groups() ? "collide/narrow/narrow_groups.cl" : chunks,
                             "filter_pairs", defines);
 }
@@ -104,7 +108,7 @@ void NarrowPhase::reserve(std::size_t triangles)
 {
     const std::size_t guess = std::max<std::size_t>(1024, triangles);
     contact_room_ = options_.capacity != 0 ? options_.capacity : guess;
-    unsure_room_ = is_exact_ ? contact_room_ : 1;
+    unsure_room_ = is_filter_ ? contact_room_ : 1;
     take_all();
 }
 
@@ -154,15 +158,18 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
         filter_.setArg(11, blocks_.cl());
     queue.launch(filter_, items_for(candidates.size(), filter_groups_per_unit),
                  by_groups() ? group_size_ : 1, 0);
-    if (!is_exact_)
+    if (!is_filter_)
         return;
-    if (!has_doubles_) {
+    if (is_exact_ && !has_doubles_) {
         decide_on_host(input, queue);
         return;
     }
-    set_arguments(exact_, input.device_points, input.device_faces, unsure_, unsure_room, contacts_,
-                  contact_room, counters_);
-    queue.launch(exact_, items_for(unsure_.size(), exact_groups_per_unit),
+    if (is_exact_)
+        set_arguments(rest_, input.device_points, input.device_faces, unsure_, unsure_room,
+                      contacts_, contact_room, counters_);
+    else
+        set_arguments(rest_, unsure_, unsure_room, contacts_, contact_room, counters_);
+    queue.launch(rest_, items_for(unsure_.size(), exact_groups_per_unit),
                  by_groups() ? group_size_ : 1, 0);
 }
 

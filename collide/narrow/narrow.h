@@ -41,13 +41,15 @@ struct NarrowCounts {
     std::uint64_t contacts = 0;
     std::uint64_t by_floats = 0;  ///< in floats, or by indices alone
     std::uint64_t by_doubles = 0;
-    std::uint64_t exactly = 0;
+    std::uint64_t exactly =
+        0;  ///< or not at all: what filters alone left open, and took for contacts
 
     std::uint64_t candidates() const { return by_floats + by_doubles + exactly; }
 };
 
 /// Decides for each candidate whether its triangles intersect: exactly for the coordinates as stored, all of which must be
-/// finite. Rounded methods give whatever their arithmetic yields.
+/// finite. Rounded methods give whatever their arithmetic yields. Filters alone find a pair that their error bounds leave open: they
+/// miss none, and never wait for the host.
 ///
 /// Triangles are closed sets: touching is intersecting. A triangle without area is the segment or point that it degenerates to.
 /// Two triangles that share vertices by index touch by construction, and intersect only if they have more in common than the
@@ -107,7 +109,7 @@ private:
     NarrowOptions options_;
     KernelForm form_;
     bool has_doubles_;
-    bool is_exact_;
+    bool is_filter_, is_exact_;
     float tolerance_ = 0;  ///< a length, for methods for swept boxes
     std::size_t chunks_;
     uint group_size_ = 1;
@@ -115,10 +117,10 @@ private:
     std::size_t contact_room_ = 0, unsure_room_ = 0;
     std::optional<Arena> arena_;
     cl::Kernel filter_;
-    cl::Kernel exact_;
+    cl::Kernel rest_;  ///< of a filter: decides what it left open
     Buffer<Pair> contacts_;
     Buffer<float> times_;  ///< of contacts, for methods for swept boxes
-    Buffer<Pair> unsure_;  ///< candidates left to exact arithmetic
+    Buffer<Pair> unsure_;  ///< candidates that a filter left open
     Buffer<Pair> blocks_;  ///< blocks of the chunk form
     /// Counters of the last query, and those of the next, which a query zeroes; layout: collide/narrow/narrow_words.h.
     Buffer<uint> counters_, next_counters_;

@@ -16,9 +16,13 @@ constexpr NarrowMethod of_distance(std::string_view name, std::string_view summa
     return {name, summary, false, 0, real_bits, 0, test};
 }
 
-// To add a rounded method: add a line here and its kernel code to rounded.clh. In the order of NarrowOf.
+// To add a rounded method: add a line here and its kernel code to rounded.clh. Those without one are filters. In the order of NarrowOf.
 constexpr NarrowMethod catalog[] = {
     {"filter-f64+exact", "floats, then doubles with error bounds, then exact sums: no error", true},
+    {"filter-f64", "floats, then doubles with error bounds: none missed, false where in doubt",
+     false, 0, 64},
+    {"filter-f32", "planes in floats with error bounds: none missed, false where in doubt", false,
+     0, 32},
     {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
     {"guigue-f32", "orientations in floats, as computed", false, 2, 32},
     {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},

@@ -17,7 +17,7 @@ struct NarrowMethod {
     std::string_view name;
     std::string_view summary;   ///< one line, for listings
     bool is_exact;              ///< exact for the coordinates as stored; false: can be wrong
-    unsigned rounded_test = 0;  ///< ROUNDED_TEST of rounded.clh; 0: exact method
+    unsigned rounded_test = 0;  ///< ROUNDED_TEST of rounded.clh; 0: none
     unsigned real_bits = 0;     ///< precision of what it computes
     /// Of a method for swept boxes: features that come nearer than this share of the scene's longest side may be taken to touch.
     float tolerance = 0;
@@ -30,6 +30,9 @@ struct NarrowMethod {
                : within_test != 0 ? NarrowOf::distance
                                   : NarrowOf::moment;
     }
+
+    /// True of methods with the filters of verdict.clh. What these leave open is decided exactly, or taken for a contact.
+    bool is_filter() const { return of() == NarrowOf::moment && rounded_test == 0; }
 
     bool misses_none() const { return rounded_test == 0 && within_test != WITHIN_COMPUTED; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "collide/narrow/narrow_methods.h"
 #include "geometry/names.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
@@ -131,6 +132,15 @@ void judge_errors(Cell& cell, std::string_view reference, bool must_be_right)
     };
     const Differences wrong{count("missed_count"), count("false_count")};
     judge(cell, reference, must_be_right, wrong == Differences{} ? "" : wrong.text());
+}
+
+void judge_contacts(Cell& cell, std::string_view reference, std::string_view narrow)
+{
+    const NarrowMethod* const method = narrow == "none" ? nullptr : &find_narrow_method(narrow);
+    const bool misses = cell.counters.at("missed_count") > 0;
+    judge_errors(
+        cell, reference,
+        method == nullptr ? misses : method->is_exact || (misses && method->misses_none()));
 }
 
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,

@@ -101,6 +101,10 @@ void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts
 /// says what is wrong and is empty if nothing is.
 void judge(Cell& cell, std::string_view reference, bool must_be_right, const std::string& wrong);
 
+/// As above, by the cell's counters missed_count and false_count; by what the narrow phase, which may be "none", promises: nothing wrong
+/// or nothing missed.
+void judge_contacts(Cell& cell, std::string_view reference, std::string_view narrow);
+
 /// As above, by the cell's counters missed_count and false_count.
 void judge_errors(Cell& cell, std::string_view reference, bool must_be_right);
 

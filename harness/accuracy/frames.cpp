@@ -18,11 +18,6 @@ struct FrameSetting {
     std::string narrow = "exact";
     std::string boxes = "f32";
     unsigned input_bits = 0;  ///< of a coordinate; 0: as given
-
-    bool is_exact() const
-    {
-        return narrow != "none" && find_narrow_method(narrow).is_exact && input_bits == 0;
-    }
 };
 
 /// Returns the exact setting, those that differ from it in one way, and one that rounds in each.
@@ -80,7 +75,10 @@ void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& in
                 sizes.put(cell);
                 cell.check.contacts_hash = found.hash();
                 cell.counters["right_contacts_count"] = static_cast<double>(right.size());
-                judge_errors(cell, "CGAL boxes, CGAL", setting.is_exact());
+                if (setting.input_bits == 0)
+                    judge_contacts(cell, "CGAL boxes, CGAL", setting.narrow);
+                else
+                    judge_errors(cell, "CGAL boxes, CGAL", false);
             };
             prepare_pipeline(run.session, rounded ? rounded->input : input, one, judge);
         };

@@ -242,9 +242,10 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
                                 failure);
         else if (all.cell.status == Cell::Status::measured) {
             sizes[all.cell.accuracy.method].put(all.cell);
-            judge_errors(all.cell, "CGAL",
-                         outside_library(all.cell.accuracy.method) == nullptr &&
-                             find_narrow_method(all.cell.accuracy.method).is_exact);
+            if (outside_library(all.cell.accuracy.method) != nullptr)
+                judge_errors(all.cell, "CGAL", false);
+            else
+                judge_contacts(all.cell, "CGAL", all.cell.accuracy.method);
         }
         run.add(std::move(all.cell));
     }

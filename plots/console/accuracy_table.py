@@ -9,7 +9,7 @@ from . import spread, swept_table
 YARDSTICK = "guigue-f64"
 FRAME_COUNTS = ("pairs_count", "right_contacts_count", "missed_count", "false_count")
 SIZES = ("depth of missed: median/99 %/most", "gap of false")
-NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32", "sat-f32")
+NARROW = ("filter-f64+exact", "filter-f64", "filter-f32", YARDSTICK, "guigue-f32", "moller-f32", "sat-f32")
 
 
 def text(run: results.Run) -> str:

@@ -21,6 +21,9 @@ SKIPS = "collide/skips.cpp"  # rules, and where each is off
 PRINTED = "builders/implicit/build_meeting"  # in a folder of others, and one builder's alone
 MANY = "collide/queues/many_"  # in a folder of others; runs for scenes of MANY_OBJECTS or more
 MANY_OBJECTS = 512
+UNDECIDED = "collide/narrow/narrow_undecided"  # in a folder of others, and that of FILTERS alone
+FILTERS = ("filter-f64", "filter-f32")
+APART = (PRINTED, MANY, UNDECIDED)
 # Where the kernels of a stage are: beginnings of paths. A builder makes the stages of OF_BUILDER, a collider `broad`.
 STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code",), "sort": ("builders/stages/sort/",),
           "order": ("builders/stages/medians/", "builders/ordered/", "builders/stages/sort/at_once"),
@@ -31,6 +34,7 @@ OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one r
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
 OF_WITHIN = {"within": ("collide/within/", "collide/narrow/")}
 OF_SWEPT = {"narrow between frames": ("collide/impacts/", "collide/moving/advance"), "narrow of queries": ("collide/moving/",)}  # in place of `narrow`
+OF_FILTERS = {"narrow of filters": ("collide/narrow/", UNDECIDED)}  # the same
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
 BUILDERS = {"oibvh-wide": ("oibvh/wide/",), "oibvh-multi-printed": ("oibvh/", "builders/implicit/", PRINTED), "oibvh": ("oibvh/", "builders/implicit/"),
@@ -59,7 +63,7 @@ class Work(NamedTuple):
         if collider == "grid":
             return of_collider
         own = next((paths for name, paths in BUILDERS.items() if self.builder.startswith(name)), ())
-        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_FIRST | OF_WITHIN | OF_SWEPT).get(stage, own if stage in OF_BUILDER else ())}
+        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_FIRST | OF_WITHIN | OF_SWEPT | OF_FILTERS).get(stage, own if stage in OF_BUILDER else ())}
         return of_collider | (stages - set(own) if self.builder == "oibvh-host" else stages)
 
 
@@ -93,7 +97,9 @@ def is_of_many(cell: Cell) -> bool:
 
 
 def narrow_of(cell: Cell) -> str:
-    """Returns the entry of STAGES or OF_SWEPT that a cell's stage `narrow` is."""
+    """Returns the entry of STAGES, OF_SWEPT or OF_FILTERS that a cell's stage `narrow` is."""
+    if {cell.accuracy.get("method"), cell.raw.get("collider", {}).get("options", {}).get("narrow")} & set(FILTERS):
+        return "narrow of filters"
     return "narrow of queries" if cell.accuracy.get("axis") == "queries" else "narrow between frames" if cell.swept else "narrow"
 
 
@@ -142,7 +148,7 @@ def code_now() -> dict[str, str]:
 def is_changed(place: str, commit: str) -> bool:
     """True if the kernels of a place have another text than at the commit, under whatever names."""
     def is_there(path: str) -> bool:
-        return path.startswith(place) and (place in (PRINTED, MANY) or not path.startswith((PRINTED, MANY)))
+        return path.startswith(place) and (place in APART or not path.startswith(APART))
 
     then = sorted(blob_code(name) for path, name in blobs(commit).items() if is_there(path))
     return then != sorted(code for path, code in code_now().items() if is_there(path))

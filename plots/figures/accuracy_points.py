@@ -14,8 +14,8 @@ from ..read import pareto, results
 
 # Methods of each axis, in the order of legends; colours as in style.py. To add a method, add its line here.
 METHODS = {
-    "narrow": {"filter-f64+exact": Look("#0072B2", "o"), "guigue-f64": Look("#E69F00", "^"),
-               "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s"), "sat-f32": Look("#009E73", "D")},
+    "narrow": {"filter-f64+exact": Look("#0072B2", "o"), "filter-f64": Look("#56B4E9", "o"), "filter-f32": Look("#56B4E9", "v"),
+               "guigue-f64": Look("#E69F00", "^"), "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s"), "sat-f32": Look("#009E73", "D")},
     "sums": {"f32": Look("#D55E00", "v"), "f32-pairwise": Look("#E69F00", "s"), "f32-compensated": Look("#CC79A7", "D"),
              "f64": Look("#0072B2", "^"), "f64-pairwise": Look("#56B4E9", "s"), "f64-compensated": Look("#009E73", "o")},
     "codes": {f"{curve}{bits}{axis}{grid}": Look(colour, marker)
@@ -29,7 +29,8 @@ METHODS = {
               "u16": Look("#009E73", "o"), "u8": Look("#D55E00", "o"), "u8-node-local": Look("#E69F00", "s")},
     "frames": {"exact": Look("#000000", "*")}
               | {f"narrow {name}": Look("#0072B2", marker)
-                 for name, marker in (("guigue-f64", "^"), ("guigue-f32", "v"), ("moller-f32", "s"), ("sat-f32", "D"), ("none", "o"))}
+                 for name, marker in (("filter-f64", "P"), ("filter-f32", "X"), ("guigue-f64", "^"), ("guigue-f32", "v"), ("moller-f32", "s"), ("sat-f32", "D"),
+                                      ("none", "o"))}
               | {f"boxes {name}": Look("#009E73", marker) for name, marker in (("f64", "^"), ("f16", "D"), ("u16", "s"), ("u8", "o"))}
               | {f"input {bits} bits": Look("#D55E00", marker) for bits, marker in ((20, "^"), (16, "s"), (12, "D"), (8, "o"))}
               | {"all coarse": Look("#CC79A7", "P")},

@@ -44,14 +44,23 @@ protected:
         return all->second;
     }
 
-    static void hold_to_reference(const NarrowOptions& options, uint apart, uint adjacent)
+    /// Expects what the reference has, of filters alone at most what they left open besides; returns how much that is in each class.
+    static std::map<std::string_view, std::size_t> hold_to_reference(const NarrowOptions& options,
+                                                                     uint apart, uint adjacent)
     {
         NarrowPhase narrow(bench().programs, options);
+        std::map<std::string_view, std::size_t> more;
         for (const auto& [name, mesh, right] : decided(options.keep_adjacent, apart, adjacent)) {
             SCOPED_TRACE(name);
             narrow.reserve(mesh.faces.size());
-            expect_equal(mesh, contacts_found(narrow, Candidates(mesh, neighbours(mesh))), right);
+            const PairList found = contacts_found(narrow, Candidates(mesh, neighbours(mesh)));
+            if (find_narrow_method(options.method).is_exact)
+                expect_equal(mesh, found, right);
+            EXPECT_TRUE(std::ranges::includes(found.pairs(), right.pairs()));
+            EXPECT_LE(found.size() - right.size(), narrow.counts(bench().queue).exactly);
+            more[name] += found.size() - right.size();
         }
+        return more;
     }
 };
 
@@ -101,6 +110,19 @@ TEST_P(Narrow, FindsTheSameEveryTime)
         EXPECT_EQ(contacts_found(narrow, candidates), first);
 }
 
+TEST_P(Narrow, MissesNoneWithFiltersAloneAndIsFalseOnlyWhereTheyAreInDoubt)
+{
+    for (const bool keep_adjacent : {false, true}) {
+        NarrowOptions alone = options(keep_adjacent);
+        alone.method = alone.without_doubles ? "filter-f32" : "filter-f64";
+        auto more = keep_adjacent ? hold_to_reference(alone, 1'000, pairs_a_class)
+                                  : hold_to_reference(alone, pairs_a_class, 500);
+        EXPECT_GT(more["degenerate"], 1'000u);
+        EXPECT_GT(more["coplanar_disjoint"], 1'000u);
+        EXPECT_EQ(more["generic"] > 100, keep_adjacent || alone.without_doubles);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Forms, Narrow,
                          testing::Combine(testing::ValuesIn(both_forms), testing::Bool()),
                          [](const auto& tested) {
@@ -124,13 +146,15 @@ std::array<std::size_t, 2> errors_of(std::string_view method, KernelForm form, c
     return {missed.size(), more.size()};
 }
 
-TEST(RoundedNarrow, IsRightWhereNothingIsClose)
+using RoundingErrors = WithCgal<testing::Test>;
+
+TEST_F(RoundingErrors, AreNoneWhereNothingIsClose)
 {
-    if (!has_exact_reference)
-        GTEST_SKIP() << "built without CGAL: nothing is compared";
     constexpr std::array<std::size_t, 2> none = {0, 0};
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
         for (const NarrowMethod& method : narrow_methods(NarrowOf::moment)) {
+            if (method.is_filter() && !method.is_exact)
+                continue;  // false where in doubt
             SCOPED_TRACE(std::string(method.name) + ", " + form_name(form));
             EXPECT_EQ(errors_of(method.name, form, "generic"), none);
             if (method.name != "sat-f32") {  // no axis between a segment and others in its plane
@@ -141,10 +165,8 @@ TEST(RoundedNarrow, IsRightWhereNothingIsClose)
 }
 
 // On other classes each rounded method could pass for exact; these are hard for it.
-TEST(RoundedNarrow, IsWrongWhereItRounds)
+TEST_F(RoundingErrors, AreThereOnHardClasses)
 {
-    if (!has_exact_reference)
-        GTEST_SKIP() << "built without CGAL: nothing is compared";
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
         EXPECT_GT(errors_of("guigue-f64", form, "same_place")[0], 100u);
         EXPECT_GT(errors_of("guigue-f32", form, "shared_edge")[0], 100u);

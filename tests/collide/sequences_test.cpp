@@ -6,11 +6,11 @@
 #include <cstring>
 #include <random>
 
-#include "collide/oracles/exact_reference.h"
 #include "harness/measure/pipeline.h"
 #include "tests/all_cases.h"
 #include "tests/collide/many_objects.h"
 #include "tests/collide/near_objects.h"
+#include "tests/collide/with_cgal.h"
 
 namespace bvhbench {
 namespace {
@@ -303,10 +303,10 @@ void expect_contacts_stand(unsigned seed, std::map<std::string, double>& sums)
     }
 }
 
-TEST(Margin, HasContactsThatStandAndThoseOfWhatMoves)
+using MarginContacts = WithCgal<testing::Test>;
+
+TEST_F(MarginContacts, StandAndThoseOfWhatMoves)
 {
-    if (!has_exact_reference)
-        GTEST_SKIP() << "no exact reference";
     std::map<std::string, double> sums;
     const unsigned count = takes_all_cases() ? 500 : takes_few_cases() ? 2 : 40;
     for (unsigned seed = 0; seed < count && !testing::Test::HasFailure(); ++seed)
@@ -314,10 +314,8 @@ TEST(Margin, HasContactsThatStandAndThoseOfWhatMoves)
     EXPECT_GT(sums["standing_count"], sums["pairs_count"] / 8);
 }
 
-TEST(Margin, HasContactsThatStandIfListsAreTooShort)
+TEST_F(MarginContacts, StandIfListsAreTooShort)
 {
-    if (!has_exact_reference)
-        GTEST_SKIP() << "no exact reference";
     for (int variant = 0; variant < 4; ++variant) {
         SCOPED_TRACE(variant);
         const float slope =

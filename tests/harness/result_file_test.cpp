@@ -22,6 +22,8 @@ protected:
     {
         folder_ = fs::path(testing::TempDir()) / ("bvhbench-" + std::to_string(getpid()));
         fs::create_directories(folder_);
+        path_ = folder_ / "r.json";
+        journal_ = path_.string() + ".journal";
     }
     void TearDown() override { fs::remove_all(folder_); }
 
@@ -31,7 +33,7 @@ protected:
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
-    fs::path folder_;
+    fs::path folder_, path_, journal_;
 };
 
 TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)
@@ -75,16 +77,14 @@ void leave_killed(const fs::path& path)
 
 TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
 {
-    const fs::path path = folder_ / "r.json";
-    leave_killed(path);
-    std::ofstream(path.string() + ".journal", std::ios::app) << "{\"part\": \"4567\", \"ce";
-    EXPECT_FALSE(fs::exists(path));
-    ResultFile file({path, "--out", {}}, false, Resuming{}, fake_run()["id"]);
+    leave_killed(path_);
+    std::ofstream(journal_, std::ios::app) << "{\"part\": \"4567\", \"ce";
+    EXPECT_FALSE(fs::exists(path_));
+    ResultFile file({path_, "--out", {}}, false, Resuming{}, fake_run()["id"]);
     EXPECT_TRUE(file.has_begun());
     EXPECT_EQ(file.next_order(), 10);
     file.begin({});
-    const std::string journal = text_of(path.string() + ".journal");
-    EXPECT_EQ(journal.substr(journal.size() - 2), "}\n") << "the line that was cut off is gone";
+    EXPECT_TRUE(text_of(journal_).ends_with("}\n")) << "the line that was cut off is gone";
     EXPECT_EQ(file.take_part("0123"), 1.5);
     EXPECT_EQ(file.take_part("4567"), std::nullopt) << "it has not ended";
     file.begin_part("4567");
@@ -93,25 +93,24 @@ TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
     EXPECT_EQ(file.size(), 2u);
     EXPECT_EQ(file.exit_code(), 1);
     file.finish({});
-    const Json document = Json::parse(text_of(path));
+    const Json document = Json::parse(text_of(path_));
     EXPECT_EQ(document["run"]["started_at"], "2025-11-30T08:15:42Z");
     EXPECT_FALSE(document.contains("merged_from"));
     EXPECT_EQ(document["cells"][1]["part"], "4567");
-    EXPECT_FALSE(fs::exists(path.string() + ".journal"));
+    EXPECT_FALSE(fs::exists(journal_));
 }
 
 TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
 {
-    const fs::path path = folder_ / "r.json";
-    leave_killed(path);
+    leave_killed(path_);
     EXPECT_NE(refusal_of<BadUsage>([&] {
-                  ResultFile(resumed(path), false, Resuming{}, "");
+                  ResultFile(resumed(path_), false, Resuming{}, "");
               }).find("did not end"),
               std::string::npos);
     Json run = fake_run();
     run["id"] = "later";
     {
-        ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+        ResultFile file(resumed(path_), false, Resuming{.is_asked = true}, "");
         EXPECT_FALSE(file.has_begun());
         EXPECT_EQ(file.next_order(), 0) << "of its own run there are no samples";
         EXPECT_NE(
@@ -126,13 +125,13 @@ TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
         file.end_part(1);
         file.finish({});
     }
-    const Json document = Json::parse(text_of(path));
+    const Json document = Json::parse(text_of(path_));
     EXPECT_EQ(document["merged_from"].size(), 2u);
     EXPECT_EQ(document["cells"].size(), 2u);
     EXPECT_EQ(document["cells"][0]["run"], fake_run()["id"]);
     EXPECT_EQ(document["cells"][1]["run"], "later");
     // A finished file is gone on with too, and nothing is left to do.
-    ResultFile again(resumed(path), false, Resuming{.is_asked = true}, "");
+    ResultFile again(resumed(path_), false, Resuming{.is_asked = true}, "");
     EXPECT_TRUE(again.take_part("0123"));
     EXPECT_TRUE(again.take_part("4567"));
     EXPECT_EQ(again.take_part("89ab"), std::nullopt);
@@ -140,16 +139,15 @@ TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
 
 TEST_F(ResultFileTest, AfterAKillBetweenTheFileAndItsJournalHasEachCellOnce)
 {
-    const fs::path path = folder_ / "r.json", journal = path.string() + ".journal";
-    leave_killed(path);
-    const std::string lines = text_of(journal);
+    leave_killed(path_);
+    const std::string lines = text_of(journal_);
     {
-        ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+        ResultFile file(resumed(path_), false, Resuming{.is_asked = true}, "");
     }
-    EXPECT_FALSE(fs::exists(journal));
-    std::ofstream(journal) << lines;
-    ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
-    EXPECT_FALSE(fs::exists(journal));
+    EXPECT_FALSE(fs::exists(journal_));
+    std::ofstream(journal_) << lines;
+    ResultFile file(resumed(path_), false, Resuming{.is_asked = true}, "");
+    EXPECT_FALSE(fs::exists(journal_));
     EXPECT_EQ(Json::parse(file.text())["cells"].size(), 2u);
     EXPECT_TRUE(file.take_part("0123"))
         << "a part that was complete stays so in a file that is not";
@@ -158,18 +156,17 @@ TEST_F(ResultFileTest, AfterAKillBetweenTheFileAndItsJournalHasEachCellOnce)
 
 TEST_F(ResultFileTest, AfterACrashInAPartThatWasMeasuredAgainHasItsNewCellsOnly)
 {
-    const fs::path path = folder_ / "r.json";
-    leave_killed(path);
+    leave_killed(path_);
     const std::string id = fake_run()["id"];
     {
-        ResultFile file({path, "--out", {}}, false, Resuming{}, id);
+        ResultFile file({path_, "--out", {}}, false, Resuming{}, id);
         file.begin({});
         file.begin_part("4567");
         EXPECT_FALSE(file.pass(2));
         file.add(fake_cell("karras"));
         file.leave();
     }
-    const ResultFile file({path, "--out", {}}, false, Resuming{}, id);
+    const ResultFile file({path_, "--out", {}}, false, Resuming{}, id);
     const Json cells = Json::parse(file.text())["cells"];
     ASSERT_EQ(cells.size(), 2u);
     EXPECT_EQ(cells[1]["builder"]["name"], "karras");
@@ -177,9 +174,8 @@ TEST_F(ResultFileTest, AfterACrashInAPartThatWasMeasuredAgainHasItsNewCellsOnly)
 
 TEST_F(ResultFileTest, ThatEndsEarlyNamesThePartThatWasMeasured)
 {
-    const fs::path path = folder_ / "r.json";
     {
-        ResultFile file({path, "--out", {}}, false, Resuming{}, "");
+        ResultFile file({path_, "--out", {}}, false, Resuming{}, "");
         file.begin(fake_run());
         for (const char* key : {"0123", "4567"}) {
             file.begin_part(key);
@@ -188,29 +184,27 @@ TEST_F(ResultFileTest, ThatEndsEarlyNamesThePartThatWasMeasured)
                 file.end_part(1);
         }
     }
-    ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+    ResultFile file(resumed(path_), false, Resuming{.is_asked = true}, "");
     EXPECT_TRUE(file.take_part("0123"));
     EXPECT_FALSE(file.take_part("4567"));
 }
 
 TEST_F(ResultFileTest, ThatIsRefusedLeavesAllFilesAsTheyAre)
 {
-    const fs::path path = folder_ / "r.json", journal = path.string() + ".journal";
-    leave_killed(path);
-    const std::string lines = text_of(journal);
+    leave_killed(path_);
+    const std::string lines = text_of(journal_);
     {
-        ResultFile file(resumed(path), false, Resuming{.is_asked = true}, "");
+        ResultFile file(resumed(path_), false, Resuming{.is_asked = true}, "");
         EXPECT_THROW(file.check_earlier({"0123"}, fake_run()), BadUsage);
     }
-    EXPECT_EQ(text_of(journal), lines);
-    EXPECT_FALSE(fs::exists(path));
+    EXPECT_EQ(text_of(journal_), lines);
+    EXPECT_FALSE(fs::exists(path_));
 }
 
 TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
 {
-    const fs::path path = folder_ / "r.json";
     {
-        ResultFile file({path, "--out", {}}, false, Resuming{}, "");
+        ResultFile file({path_, "--out", {}}, false, Resuming{}, "");
         file.begin(fake_run());
         file.begin_part("0123");
         Cell failed = fake_cell();
@@ -219,7 +213,8 @@ TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
         file.end_part(1);
         file.leave();
     }
-    EXPECT_TRUE(ResultFile(resumed(path), false, Resuming{.is_asked = true}, "").take_part("0123"));
+    EXPECT_TRUE(
+        ResultFile(resumed(path_), false, Resuming{.is_asked = true}, "").take_part("0123"));
     const fs::path good = folder_ / "good.json";
     leave_killed(good);
     ResultFile file(resumed(good), false, Resuming{.is_asked = true, .retries_failed = true}, "");
@@ -227,7 +222,7 @@ TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
     Json run = fake_run();
     run["id"] = "later";
     {
-        ResultFile again(resumed(path), false, Resuming{.is_asked = true, .retries_failed = true},
+        ResultFile again(resumed(path_), false, Resuming{.is_asked = true, .retries_failed = true},
                          "");
         EXPECT_FALSE(again.take_part("0123"));
         again.begin(run);
@@ -238,7 +233,7 @@ TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
         again.end_part(2);
         again.leave();
     }
-    ResultFile next(resumed(path), false, Resuming{.is_asked = true, .retries_failed = true},
+    ResultFile next(resumed(path_), false, Resuming{.is_asked = true, .retries_failed = true},
                     "later");
     EXPECT_EQ(next.take_part("0123"), 2) << "this run has tried it";
 }
@@ -256,12 +251,11 @@ TEST_F(ResultFileTest, OfCellsThatWereNotMeasuredSaysWhy)
 
 TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)
 {
-    const fs::path path = folder_ / "r.json";
-    Output(path, "--out", {}).replace("older");
+    Output(path_, "--out", {}).replace("older");
     {
-        const ResultFile file({path, "--out", {.force = true}}, true, fake_run());
+        const ResultFile file({path_, "--out", {.force = true}}, true, fake_run());
     }
-    EXPECT_EQ(text_of(path), "older");
+    EXPECT_EQ(text_of(path_), "older");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 

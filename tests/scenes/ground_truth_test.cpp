@@ -3,6 +3,7 @@
 
 #include "helpers.h"
 #include "scenes/generate/derived.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
@@ -26,15 +27,11 @@ public:
     /// Returns the message with which it is refused, after the folder's name.
     std::string refusal() const
     {
-        try {
-            truth();
-        } catch (const Unavailable& error) {
-            const std::string text = error.what(), folder = path().string() + "/";
-            EXPECT_TRUE(text.starts_with(path().string())) << text;
-            EXPECT_EQ(text.find('\n'), text.npos);
-            return text.starts_with(folder) ? text.substr(folder.size()) : text;
-        }
-        return "read";
+        const std::string text = refusal_of<Unavailable>([&] { truth(); }),
+                          folder = path().string() + "/";
+        EXPECT_TRUE(text.empty() || text.starts_with(path().string())) << text;
+        EXPECT_EQ(text.find('\n'), text.npos);
+        return text.starts_with(folder) ? text.substr(folder.size()) : text;
     }
 };
 
