@@ -18,6 +18,8 @@ constexpr const char* scenes_of_sums[] = {"torus:100000", "hairball:100000", "to
 constexpr const char* scenes_of_codes[] = {"torus:100000", "hairball:100000", "grid:100000",
                                            "outlier:sphere:100000:0:1000", "n-body:100000"};
 constexpr const char* small_torus[] = {"torus:20000"};
+constexpr const char* spheres_by_size[] = {"two-spheres:2000", "two-spheres:20000",
+                                           "two-spheres:200000"};
 constexpr const char* moving_scenes[] = {"unc_cloth_ball", "unc_nbody", "ipc_armadillo_rollers",
                                          "n-body:146480", "funnel"};
 
@@ -32,6 +34,9 @@ constexpr Axis catalog[] = {
      measure_codes, scenes_of_codes, true},
     {"input", "what does rounding vertices from doubles to floats add to the pairs of boxes",
      nullptr, measure_input, small_torus},
+    {"place",
+     "what does exact arithmetic take, by the distance from the origin and the triangles' size",
+     nullptr, measure_place, spheres_by_size},
     {"boxes", "what do fewer bytes a box cost in false pairs and save in time", nullptr,
      measure_boxes, two_scenes},
     {"swept",

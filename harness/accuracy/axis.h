@@ -180,6 +180,7 @@ void measure_queries(const AxisRun& run);
 void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input);
+void measure_place(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& input);
 void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& input);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The axes that build trees and query them for pairs: codes, input and boxes.
+// The axes that build trees and query them for pairs: codes, input, place and boxes.
 #include <cmath>
 
 #include "builders/box_format.h"
@@ -45,6 +45,19 @@ void add_forest_cost(Session& session, const Input& input, Cell& cell)
         cell.counters["sah_cost"] = cost / area;
     else
         cell.left_out["sah_cost"] = "no root has an area";
+}
+
+/// Calls measure(points, facts) with the scene rotated and moved by each of these multiples of its size, in doubles.
+template <class Measure>
+void at_places(const SceneFacts& scene, const Input& input, std::initializer_list<double> sizes,
+               const Measure& measure)
+{
+    for (const double away : sizes) {
+        SceneFacts facts = scene;
+        facts.name +=
+            " at " + (away > 0 ? "1e" + std::to_string(std::lround(std::log10(away))) : "0");
+        measure(turned_and_moved(input.points, away), facts);
+    }
 }
 
 }  // namespace
@@ -132,8 +145,7 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
 void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     // Distance from the origin in sizes of the scene. A float has 24 bits, so at 1e7 sizes hardly any detail remains.
-    for (const double sizes : {0.0, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-        const std::vector<WidePoint> wide = turned_and_moved(input.points, sizes);
+    at_places(scene, input, {0, 1e2, 1e3, 1e4, 1e5, 1e6}, [&](const auto& wide, const auto& facts) {
         const PairList right = overlapping_pairs_in_doubles(wide, input.faces);
         std::vector<AxisMethod> methods;
         const auto add = [&](const char* name, Doubles how) {
@@ -151,11 +163,33 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
         };
         add("f32", Doubles::as_is);
         add("f32-recentred", Doubles::recentred);
-        SceneFacts facts = scene;
-        facts.name +=
-            " at " + (sizes > 0 ? "1e" + std::to_string(std::lround(std::log10(sizes))) : "0");
         measure_methods(run, "input", facts, methods);
-    }
+    });
+}
+
+/// Measures what exact contacts take by place: far from the origin rounding makes more pairs touch, and have no area, for which the
+/// filters are in doubt. The same filters alone tell what exact arithmetic takes. The answer is that of the rounded vertices.
+void measure_place(const AxisRun& run, const SceneFacts& scene, const Input& input)
+{
+    at_places(
+        scene, input, {0, 1, 1e1, 1e2, 1e3, 1e4, 1e5}, [&](const auto& wide, const auto& facts) {
+            const auto floats = upload_rounded(run.session, rounded(wide, Doubles::as_is), input);
+            const PairList right = intersecting_pairs(
+                floats->points, input.faces,
+                touching_pairs(floats->points, input.faces, false).pairs(), false);
+            std::vector<AxisMethod> methods;
+            for (const char* narrow : {"exact", "filter-f64"}) {
+                methods.push_back(fastest_method(run.session, narrow, "f32", narrow));
+                methods.back().prepare = [&, narrow](Measurement& one) {
+                    prepare_pipeline(run.session, floats->input, one,
+                                     [&, narrow](const Pipeline& pipeline, Cell& cell) {
+                                         count_errors(PairList(pipeline.contacts()), right, cell);
+                                         judge_contacts(cell, "CGAL boxes, CGAL", narrow);
+                                     });
+                };
+            }
+            measure_methods(run, "place", facts, methods);
+        });
 }
 
 /// Measures the false pairs that smaller boxes cost and the time they save. The trees' layout, query and exact narrow phase are

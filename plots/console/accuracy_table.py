@@ -62,6 +62,13 @@ def inputs(cells: list[Cell]) -> str:
         *must(cell, "right_pairs_count", "missed_count", "false_count"), inflation(cell), duration(cell.median_ns())])
 
 
+def place(cells: list[Cell]) -> str:
+    return lines(cells, ("<scene", "<narrow phase", "pairs", "missed", "false", "left open", "ns/pair", "frame"), lambda cell: [
+        *must(cell, "pairs_count", "missed_count", "false_count"),
+        f"{100 * spread.ratio(cell.counters['narrow_exact_count'], cell.counters['pairs_count']):.1f} %",
+        f"{spread.ratio(cell.median_ns('narrow'), cell.counters['pairs_count']):.1f}", duration(cell.median_ns())])
+
+
 def boxes(cells: list[Cell]) -> str:
     return lines(cells, ("<scene", "<boxes", "bytes a box", "gather", "hierarchy", "query", "narrow", "frame", "box tests",
                          "missed", "false", "times as many"), lambda cell: [
@@ -155,5 +162,5 @@ def sums_of_queries(cells: list[Cell]) -> dict[tuple[str, str], dict[str, int]]:
             for name, own in by_kind.items()}
 
 
-AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "boxes": boxes,
+AXES: dict[str, Callable[[list[Cell]], str]] = {"narrow": narrow, "sums": sums, "codes": codes, "input": inputs, "place": place, "boxes": boxes,
                                                 "frames": frames, "queries": queries, "distance": distance}

@@ -138,29 +138,43 @@ def distance(cell: results.Cell) -> float:
     return float(cell.scene.rsplit(" at ", 1)[1])
 
 
-def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+def draw_by_distance(run: results.Run, cells: list[results.Cell], axis: str, nearest: float, values: dict[str, Value],
+                     note: str) -> plt.Figure:
+    """Draws a row for each value, a column for each scene and a line for each method, from 0 and `nearest` sizes away on."""
     scenes = results.grouped(cells, lambda cell: cell.scene.rsplit(" at ", 1)[0])
     drawing, grid = figure.grid(2, len(scenes), 4.0, sharex=True)
     for column, (scene, there) in enumerate(scenes.items()):
-        for method, seen in METHODS["input"].items():
+        for method, seen in METHODS[axis].items():
             group = sorted((cell for cell in there if cell.accuracy["method"] == method), key=distance)
-            for row, value in enumerate((lambda cell: cell.counters["pairs_count"] / cell.counters["right_pairs_count"],
-                                         lambda cell: 1e3 * median_s(cell))):
-                axes = grid[row][column]
+            for axes, value in zip(grid[:, column], values.values(), strict=True):
                 axes.plot([distance(cell) for cell in group], [value(cell) for cell in group], color=seen.colour,
                           marker=seen.marker, label=method)
-                axes.set_xscale("symlog", linthresh=100, linscale=0.5)
+                axes.set_xscale("symlog", linthresh=nearest, linscale=0.5)
                 axes.set_yscale("log")
-        for axes, name in zip(grid[:, column], ("pairs, for each right one", "frame, ms"), strict=True):
+        for axes, name in zip(grid[:, column], values, strict=True):
             figure.log_ticks(axes.yaxis, *axes.get_ylim())
             if column == 0:
                 axes.set_ylabel(name)
         grid[0][column].set_title(scene, loc="left")
-        grid[1][column].set_xlabel("distance from the origin, in sizes of the scene")
-    figure.footer(drawing, run, "accuracy", (
-        "Vertices are doubles, rounded to floats as they are or after the middle of their box was taken off. Pairs of boxes "
-        "against those of doubles: rounding misses none. Times: medians.",), legend(drawing, "input", cells, 2))
+        grid[1][column].set_xlabel("sizes of the scene away")
+    figure.footer(drawing, run, "accuracy", (note,), legend(drawing, axis, cells, 2))
     return drawing
+
+
+def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    return draw_by_distance(run, cells, "input", 100, {
+        "pairs, for each right one": lambda cell: cell.counters["pairs_count"] / cell.counters["right_pairs_count"],
+        "frame, ms": lambda cell: 1e3 * median_s(cell)},
+        "Vertices are doubles, by their distance from the origin, rounded to floats as they are or after the middle of their box was "
+        "taken off. Pairs of boxes against those of doubles: rounding misses none. Times: medians.")
+
+
+def draw_place(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    return draw_by_distance(run, cells, "place", 1, {
+        "left open, %": lambda cell: 100 * cell.counters["narrow_exact_count"] / max(1, cell.counters["pairs_count"]),
+        "narrow phase, ns/pair": lambda cell: 1e9 * median_s(cell, "narrow") / max(1, cell.counters["pairs_count"])},
+        "Vertices are doubles, by their distance from the origin, rounded to floats there: exact contacts, and the filters alone, which take "
+        "what they leave open for contacts. No point: nothing was left open. Times: medians.")
 
 
 def inflation(cell: results.Cell) -> float:
@@ -249,7 +263,7 @@ def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 # The figures of each axis, by the name of the picture.
 FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
-           "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "boxes": {"boxes": draw_boxes},
+           "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "place": {"place": draw_place}, "boxes": {"boxes": draw_boxes},
            "swept": {"swept": functools.partial(swept_bars.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw},
            "impacts": {"impacts": draw_impacts}, "distance": {"distance": draw_distance}, "queries": {"queries": draw_queries}}
 

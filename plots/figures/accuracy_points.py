@@ -25,6 +25,7 @@ METHODS = {
               for bits, marker in zip((30, 48, 63), markers, strict=True)}
              | {"kd": Look("#CC79A7", "*"), "radix": Look("#000000", "P")},
     "input": {"f32": Look("#D55E00", "v"), "f32-recentred": Look("#0072B2", "o")},
+    "place": {"exact": Look("#0072B2", "o"), "filter-f64": Look("#56B4E9", "v")},
     "boxes": {"f32": Look("#0072B2", "o"), "f64": Look("#56B4E9", "o"), "f16": Look("#CC79A7", "o"),
               "u16": Look("#009E73", "o"), "u8": Look("#D55E00", "o"), "u8-node-local": Look("#E69F00", "s")},
     "frames": {"exact": Look("#000000", "*")}

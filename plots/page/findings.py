@@ -25,6 +25,7 @@ AXES = {"narrow": "Which test of two triangles is right, and what does it cost?"
         "sums": "How far off is each way to add areas up, and what does it cost?",
         "codes": "What does each order of the leaves cost, and what does a query of its tree?",
         "input": "How many pairs are false far from the origin, and does a shift of the vertices help?",
+        "place": "What does exact arithmetic cost, by the distance from the origin and the triangles' size?",
         "boxes": "What do smaller boxes save a query, and how many false pairs do they add?",
         "swept": "Which boxes of a triangle's way miss nothing, and what do they cost?",
         "frames": "What does a frame cost, and how many contacts are wrong, by what is rounded?"}

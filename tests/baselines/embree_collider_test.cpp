@@ -5,21 +5,12 @@
 
 #include "tests/baselines/library_colliders.h"
 #include "tests/collide/many_objects.h"
-#include "tests/needing.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
 
-class EmbreeCollider : public Needing<testing::TestWithParam<bool>, embree_absent> {
-protected:
-    static bool is_refit() { return GetParam(); }
-    static std::unique_ptr<Collider> made(const ColliderOptions& options)
-    {
-        const MakeCollider make = is_refit() ? make_embree_refit_collider : make_embree_collider;
-        return make(session().programs(), options);
-    }
-};
+using EmbreeCollider = OfALibrary<make_embree_collider, make_embree_refit_collider, embree_absent>;
 
 TEST_P(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
 {

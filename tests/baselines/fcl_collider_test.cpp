@@ -8,7 +8,6 @@
 #include "collide/narrow/exact_contact.h"
 #include "tests/baselines/library_colliders.h"
 #include "tests/collide/many_objects.h"
-#include "tests/needing.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
@@ -54,15 +53,7 @@ PairList pairs_that_meet(const ManyObjects& many, Among among)
     return PairList(std::move(meet));
 }
 
-class FclCollider : public Needing<testing::TestWithParam<bool>, fcl_absent> {
-protected:
-    static bool is_refit() { return GetParam(); }
-    static std::unique_ptr<Collider> made(const ColliderOptions& options)
-    {
-        const MakeCollider make = is_refit() ? make_fcl_refit_collider : make_fcl_collider;
-        return make(session().programs(), options);
-    }
-};
+using FclCollider = OfALibrary<make_fcl_collider, make_fcl_refit_collider, fcl_absent>;
 
 TEST_P(FclCollider, FindsThePairsThatMeetAsPointsMove)
 {

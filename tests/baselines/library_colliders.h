@@ -5,6 +5,7 @@
 
 #include "baselines/baselines.h"
 #include "tests/collide/collider_testing.h"
+#include "tests/needing.h"
 
 namespace bvhbench {
 
@@ -26,6 +27,17 @@ inline PairList found_by(Collider& collider, const Input& input)
     session().queue().finish();
     return found;
 }
+
+/// Tests of a library's colliders, which build anew or, with the parameter true, refit. Skipped without the library.
+template <MakeCollider built, MakeCollider refit, const std::string_view& absent>
+class OfALibrary : public Needing<testing::TestWithParam<bool>, absent> {
+protected:
+    static bool is_refit() { return testing::TestWithParam<bool>::GetParam(); }
+    static std::unique_ptr<Collider> made(const ColliderOptions& options)
+    {
+        return (is_refit() ? refit : built)(session().programs(), options);
+    }
+};
 
 /// Returns the points moved, so that other objects overlap than before.
 inline std::vector<Point> moved(std::vector<Point> points)

@@ -216,6 +216,14 @@ TEST(Accuracy, OfScenesMeasuresWhatIsAsked)
     EXPECT_EQ(input.size(), 6u);
     for (const auto& [name, cell] : input)
         EXPECT_EQ(cell.counters.at("missed_count"), 0) << name;
+    const auto place = measured("place", {.scenes = {"two-spheres:3000"}, .samples = 1});
+    EXPECT_EQ(place.size(), 14u);
+    for (const auto& [name, cell] : place) {
+        EXPECT_EQ(cell.counters.at("missed_count"), 0) << name;
+        EXPECT_EQ(cell.check.verdict == Check::Verdict::agrees, name.ends_with("/exact")) << name;
+    }
+    EXPECT_GT(place.at("two-spheres:3000 at 1e5/exact").counters.at("narrow_exact_count"),
+              10 + place.at("two-spheres:3000 at 0/exact").counters.at("narrow_exact_count"));
     EXPECT_THROW(find_axis("depth"), BadUsage);
 }
 

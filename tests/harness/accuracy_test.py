@@ -10,7 +10,7 @@ from program import SCHEMA, expect, main, run, valid
 
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
-    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept", "frames",
+    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "place", "boxes", "swept", "frames",
                                                                                           "impacts", "queries", "distance"]
     methods = [name for name in (line.split()[0] for line in expect(0, "list", "narrow").splitlines()) if not name.startswith(("ccd", "within"))]
     assert methods[0] == "filter-f64+exact", methods
@@ -34,7 +34,7 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
            "--out", "b", says="guigue-f64: 0 missed")
     axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
     assert axes == ["narrow", "narrow", "sums", "codes", "boxes"], axes
-    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept, frames, impacts, queries, distance")
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, place, boxes, swept, frames, impacts, queries, distance")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
 
