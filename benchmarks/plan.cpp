@@ -34,7 +34,7 @@ std::string name_of(const PlannedCell& cell)
     return text;
 }
 
-/// Returns the pipelines as their cells have them: without a builder that is not used, and for swept boxes one for each kind of
+/// Returns the pipelines as their cells have them: without a builder that is not used, and for features one for each kind of
 /// pairs.
 std::vector<PipelineChoice> pipelines_of(const CollideTask& task)
 {
@@ -42,13 +42,13 @@ std::vector<PipelineChoice> pipelines_of(const CollideTask& task)
     for (PipelineChoice pipeline : task.pipelines) {
         if (!find_collider(pipeline.collider.name).needs_tree)
             pipeline.builder = {.name = "none"};
-        if (!task.swept)
+        if (!task.has_features())
             all.push_back(pipeline);
         const Among asked = pipeline.collider.among;
-        pipeline.collider.keep_adjacent &= !task.swept;
+        pipeline.collider.keep_adjacent &= !task.has_features();
         for (const Among among : {Among::between_objects, Among::within_objects}) {
             pipeline.collider.among = among;
-            if (task.swept && (asked == Among::all || asked == among))
+            if (task.has_features() && (asked == Among::all || asked == among))
                 all.push_back(pipeline);
         }
     }

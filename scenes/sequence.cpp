@@ -145,7 +145,7 @@ Scene read_numbered(const std::filesystem::path& folder, const SceneLibrary& lib
             throw Unavailable(path.string() + " has other triangles than " +
                               files.begin()->second.string() +
                               ", which only frames of `collide` may have, whose trees are rebuilt: "
-                              "without refits, fronts, --swept and --between");
+                              "without refits, fronts, --swept, --features and --between");
         share_triangles = share_triangles && !differs;
         scene.frames.push_back(std::move(file.mesh.points));
         file.wide.clear();

@@ -197,6 +197,10 @@ constexpr Choice table[] = {
      "boxes around the way from each frame to the next: vertices against faces, and edges against "
      "edges; --pairs-of between or within has one of the two",
      set_word<scene, &SceneChoice::swept, truths>, value_of<scene, &SceneChoice::swept>},
+    {"features", Of::scene, "true or false",
+     "with --within: vertices against faces, and edges against edges, in place of triangles; "
+     "--pairs-of between or within has one of the two",
+     set_word<scene, &SceneChoice::features, truths>, value_of<scene, &SceneChoice::features>},
 };
 
 [[noreturn]] void refuse(const Choice& option, const std::string& word)

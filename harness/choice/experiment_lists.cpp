@@ -112,7 +112,7 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
     task.pipelines = pipelines;
     if (json.is_string()) {
         task.scene = scene_name(json.get<std::string>());
-        check_swept(task);
+        check_features(task);
         return task;
     }
     refuse_unknown_keys(json, choice_keys(Choice::Of::scene, {"scene", "pairs_of"}), "a scene");
@@ -125,7 +125,7 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
         for (PipelineChoice& pipeline : task.pipelines)
             pipeline.collider.among = choice.collider.among;
     }
-    check_swept(task);
+    check_features(task);
     return task;
 }
 

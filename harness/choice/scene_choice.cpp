@@ -60,29 +60,36 @@ std::string frame_range_text(const FrameRange& range)
     return std::to_string(range.first) + ':' + (range.end == 0 ? "" : std::to_string(range.end));
 }
 
-void check_swept(const CollideTask& task)
+void check_features(const CollideTask& task)
 {
     for (const PipelineChoice& pipeline : task.pipelines)
         check_narrow_of(pipeline.collider.narrow, pipeline.collider.question(task.swept));
-    if (!task.swept)
+    if (!task.has_features())
         return;
+    if (task.swept && task.features)
+        throw BadUsage("'features' are of one moment, and 'swept' has those between two");
+    const std::string what = task.swept ? "swept" : "with 'features'";
     if (task.objects != ObjectsBy::automatic)
         throw BadUsage(
-            "swept, objects are the scene's vertices, faces and edges, and nobody chooses them");
+            what + ", objects are the scene's vertices, faces and edges, and nobody chooses them");
     if (!task.exclude.empty())
-        throw BadUsage(
-            "swept, objects are the scene's vertices, faces and edges, and 'exclude' is about "
-            "those "
-            "of the scene");
+        throw BadUsage(what +
+                       ", objects are the scene's vertices, faces and edges, and 'exclude' is "
+                       "about those of the scene");
     for (const PipelineChoice& pipeline : task.pipelines) {
+        const bool is_within = pipeline.collider.within != "none";
         if (pipeline.collider.first)
-            throw BadUsage("'first' is about triangles of one moment, and swept boxes are not");
-        if (pipeline.collider.within != "none")
-            throw BadUsage("'within' is about triangles of one moment, and swept boxes are not");
+            throw BadUsage("'first' is about triangles, and " + what +
+                           " pairs are of vertices, faces and edges");
+        if (task.swept && is_within)
+            throw BadUsage(
+                "'within' is about one moment, and swept boxes are not: there are 'features'");
+        if (task.features && !is_within)
+            throw BadUsage("'features' are pairs at most a distance apart: they need 'within'");
         if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
             find_order(pipeline.builder.order).medians != Medians::nowhere)
             throw BadUsage("order " + pipeline.builder.order +
-                           " lines up one object, and swept vertices and faces are two: pairs "
+                           " lines up one object, and vertices and faces are two: pairs "
                            "within objects are those of edges alone");
     }
 }

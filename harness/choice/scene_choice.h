@@ -40,8 +40,12 @@ struct SceneChoice {
     ObjectsBy objects = ObjectsBy::automatic;
     unsigned between = 0;      ///< frames inserted between consecutive frames of the scene
     bool swept = false;        ///< boxes enclose the motion from each frame to the next
+    bool features = false;     ///< pairs are of vertices and faces, and of edges, in each frame
     std::string exclude = {};  ///< objects that are not tested with each other (filter_words.h)
     FrameRange frames = {};    ///< if swept: the frames in which motions begin
+
+    /// True if pairs are of vertices and faces, and of edges: over each step, or in each frame.
+    bool has_features() const { return swept || features; }
 
     bool operator==(const SceneChoice&) const = default;
 };
@@ -63,7 +67,7 @@ struct CollideTask : SceneChoice {
     Note note = {};            ///< told before and during work that takes long; may be empty
 };
 
-/// Throws BadUsage for options that are invalid with swept boxes, or without. Needs no scene.
-void check_swept(const CollideTask& task);
+/// Throws BadUsage for options that are invalid with features, or without. Needs no scene.
+void check_features(const CollideTask& task);
 
 }  // namespace bvhbench

@@ -60,8 +60,8 @@ public:
         Output json(json_, "--json", rules);
         ResultFile results(std::move(json), common.force, measured_facts(session, invocation.words),
                            watchdog::run_id());
-        PairsFile pairs_file(pairs, task.swept);
-        PairsFile contacts_file(contacts, task.swept,
+        PairsFile pairs_file(pairs, task.has_features());
+        PairsFile contacts_file(contacts, task.has_features(),
                                 task.swept                          ? PairsFile::With::times
                                 : choice_.collider.within != "none" ? PairsFile::With::distances
                                                                     : PairsFile::With::nothing);
@@ -108,9 +108,9 @@ private:
     void check_containment() const
     {
         if (containment_ &&
-            (choice_.scene.swept || !choice_.scene.exclude.empty() || choice_.collider.first ||
-             choice_.collider.within != "none" || choice_.collider.narrow != "exact" ||
-             choice_.collider.among == Among::within_objects))
+            (choice_.scene.has_features() || !choice_.scene.exclude.empty() ||
+             choice_.collider.first || choice_.collider.within != "none" ||
+             choice_.collider.narrow != "exact" || choice_.collider.among == Among::within_objects))
             throw BadUsage(
                 "--containment needs all exact contacts between objects: --narrow exact, without "
                 "--swept, --exclude, --first, --within and --pairs-of within");
@@ -146,17 +146,18 @@ private:
                                  "`bvhbench scene` counts open edges, --weld may close them");
     }
 
-    /// Throws BadUsage for words that are invalid with swept boxes.
-    void check_swept_words() const
+    /// Throws BadUsage for words that are invalid with features.
+    void check_feature_words() const
     {
+        const std::string what = choice_.scene.swept ? "--swept" : "--features";
         if (adjacent_->count() > 0 && choice_.collider.keep_adjacent)
-            throw BadUsage(
-                "--swept leaves out pairs that share a vertex, which touch all the way: there are "
-                "none for --adjacent keep");
+            throw BadUsage(what +
+                           " leaves out pairs that share a vertex, which always touch: there are "
+                           "none for --adjacent keep");
         if (!(pairs_.empty() && contacts_.empty()) && choice_.collider.among == Among::all)
-            throw BadUsage(
-                "--pairs and --contacts write one list each, and --swept finds two: choose by "
-                "--pairs-of between, of vertices and faces, or within, of edges");
+            throw BadUsage("--pairs and --contacts write one list each, and " + what +
+                           " finds two: choose by --pairs-of between, of vertices and faces, or "
+                           "within, of edges");
     }
 
     CollideTask task() const
@@ -175,9 +176,9 @@ private:
         task.samples = samples_;
         task.wants_lists = !pairs_.empty() || !contacts_.empty() || containment_;
         sampling_.apply(task.sampling);
-        check_swept(task);
-        if (task.swept) {
-            check_swept_words();
+        check_features(task);
+        if (task.has_features()) {
+            check_feature_words();
             for (PipelineChoice& pipeline : task.pipelines)
                 pipeline.collider.keep_adjacent = false;
         }
@@ -207,7 +208,7 @@ private:
                         return;
                     const auto frame = static_cast<std::size_t>(cells.front().scene.frame);
                     pairs.add(found.pairs, frame, *found.scene);
-                    contacts.add(found.contacts, frame, *found.scene, found.times);
+                    contacts.add(found.contacts, frame, *found.scene, found.times, found.features);
                 },
                 [&](std::size_t cells) { return results.pass(cells); });
         }
@@ -247,6 +248,8 @@ extern const CommandEntry collide_command = {
       "whether anything intersects"},
      {"bvhbench collide --collider leaf --scene cloth-ball:20000 --adjacent drop --within 0.5%",
       "what is at most half a percent of the scene's diagonal apart"},
+     {"bvhbench collide --collider block --scene cloth-ball:20000 --within 1e-3 --features",
+      "the same of vertices against faces and edges against edges, as IPC asks"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept",
       "what may meet between frames"},
      {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept --narrow ccd-1e-4",

@@ -104,7 +104,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
 Scene scene_of(const CollideTask& task, const SceneLibrary& library)
 {
     SceneLibrary readers = library;
-    readers.any_topology = !task.swept && task.between == 0 &&
+    readers.any_topology = !task.has_features() && task.between == 0 &&
                            std::ranges::none_of(task.pipelines, [](const PipelineChoice& pipeline) {
                                return pipeline.collider.update == FrameUpdate::refit ||
                                       find_collider(pipeline.collider.name).refits;
@@ -157,7 +157,7 @@ void collide_frames(Session& session, const CollideTask& task, int& order, const
                     const PassCells& passes)
 {
     const auto collide = [&] {
-        (task.swept ? collide_swept : collide_scene)(session, task, order, add, passes);
+        (task.has_features() ? collide_features : collide_scene)(session, task, order, add, passes);
     };
     if (task.needs_scene) {
         collide();

@@ -23,6 +23,8 @@ struct Found {
     PairList pairs = {}, contacts = {};
     std::vector<float> times =
         {};  ///< of contacts between two frames: a time before which each does not touch
+    std::span<const Face> features =
+        {};  ///< vertices and faces, or edges, by which pairs are numbered; empty: triangles
 };
 
 /// Returns the task's scene, with its objects split as chosen and the frames in between added. Throws what loading it throws.
@@ -53,17 +55,18 @@ using PassCells = std::function<bool(std::size_t cells)>;
 void collide_frames(Session& session, const CollideTask& task, int& order, const AddFrame& add,
                     const PassCells& passes = {});
 
-/// Runs a task whose `swept` is set: boxes enclose triangles over a step, from one frame to the next, as in the broad phase of
-/// continuous collision detection. A step has two queries, each with one cell per pipeline: vertices against faces, which are
-/// two objects, and edges against edges, which are one object. A pipeline limited to pairs between or within objects runs only
-/// one of them. Pairs that share a vertex are left out.
+/// Runs a task that has features: `swept`, whose boxes enclose them over a step, from one frame to the next, as in the broad phase of
+/// continuous collision detection, or `features`, those within a distance in each frame. A step or frame has two queries, each with
+/// one cell per pipeline: vertices against faces, which are two objects, and edges against edges, which are one object. A pipeline
+/// limited to pairs between or within objects runs only one of them. Pairs that share a vertex are left out.
 ///
-/// Cells are checked against the sweep, and against the ground truth of the step if there is one (scenes/ground_truth.h):
-/// counters ground_truth_pairs, ground_truth_missed and reference_pairs_count, the number of pairs in meta.json.
+/// Cells of steps are checked against the sweep, and against the ground truth of the step if there is one (scenes/ground_truth.h):
+/// counters ground_truth_pairs, ground_truth_missed and reference_pairs_count, the number of pairs in meta.json. Cells of frames are
+/// checked against exact distances.
 ///
-/// Throws BadUsage for options that make no sense with swept boxes, and Unavailable for a scene of one frame.
-void collide_swept(Session& session, const CollideTask& task, int& order, const AddFrame& add,
-                   const PassCells& passes);
+/// Throws BadUsage for options that make no sense with features, and Unavailable for steps of a scene of one frame.
+void collide_features(Session& session, const CollideTask& task, int& order, const AddFrame& add,
+                      const PassCells& passes);
 
 /// A pipeline that runs over the frames of a scene. It is created when it first runs.
 struct PipelineState {
@@ -79,7 +82,7 @@ struct FrameOfPipelines {
     Contest& contest;    ///< between the pipelines, over the scene's frames
     std::string number;  ///< path of the frame within the run, such as "2/0"
     SceneFacts scene;
-    SweptFacts swept = {};
+    FeatureFacts features = {};
     std::vector<Motion> motions = {};       ///< since the previous frame; empty: unknown
     std::span<const uint> file_faces = {};  ///< as Scene::file_faces
     Note note = {};

@@ -73,7 +73,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
                        .number = frame.number + '/' + std::to_string(k)};
         Cell& cell = measurement.cell;
         cell.scene = frame.scene;
-        cell.swept = frame.swept;
+        cell.features = frame.features;
         if (one.status == Cell::Status::measured && one.pipeline == nullptr)
             if (one.reason = frame.contest.why_not(cell); !one.reason.empty())
                 one.status = Cell::Status::skipped;

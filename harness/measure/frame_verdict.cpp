@@ -138,8 +138,8 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
 /// True if the pairs can be judged without a list of them: they are a device's, exact, and nobody wants the list.
 bool FrameVerdict::needs_no_list(const Pipeline& pipeline, const Cell& cell) const
 {
-    return !pipeline.collider().is_on_host() && !frame_.wants_lists && cell.swept.pairs.empty() &&
-           !find_box_format(cell.builder.boxes).has_cells();
+    return !pipeline.collider().is_on_host() && !frame_.wants_lists &&
+           cell.features.pairs.empty() && !find_box_format(cell.builder.boxes).has_cells();
 }
 
 void FrameVerdict::judge_pairs(Pipeline& pipeline, Cell& cell, Found& found)
@@ -171,7 +171,7 @@ void FrameVerdict::judge_pairs_by_list(const Pipeline& pipeline, const Expected&
         check_candidates(pairs.list(), expected.list().list, !pipeline.has_contacts(), cell);
     else
         pairs.add_differences("pairs", cell.check);
-    if (!cell.swept.pairs.empty())
+    if (!cell.features.pairs.empty())
         count_errors(pairs.list(), expected.list().list, "", cell);
     found.pairs = pairs.in_file(cell.check.pairs_hash);
 }

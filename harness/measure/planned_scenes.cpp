@@ -113,7 +113,8 @@ std::vector<Cell> planned_cells(const PlannedScene& planned, const CellFilter& f
             Cell& cell = cells.emplace_back(planned_cell(*planned.collides, pipeline));
             if (!find_collider(cell.collider.name).needs_tree)
                 cell.builder = {.name = "none"};
-            cell.collider.keep_adjacent = cell.collider.keep_adjacent && !planned.collides->swept;
+            cell.collider.keep_adjacent =
+                cell.collider.keep_adjacent && !planned.collides->has_features();
         }
     else
         for (const BuilderChoice& builder : chosen(*planned.experiment, planned.name, filter)) {

@@ -24,15 +24,15 @@ void check_pairs_path(const std::filesystem::path& path, const FrameRange& frame
                        "' would hold the pairs of several frames: choose one by --frames, or .csv");
 }
 
-PairsFile::PairsFile(const Output& output, bool is_swept, With with)
-    : is_csv_(output.path().extension() == ".csv"), is_swept_(is_swept), with_(with)
+PairsFile::PairsFile(const Output& output, bool of_features, With with)
+    : is_csv_(output.path().extension() == ".csv"), of_features_(of_features), with_(with)
 {
     if (output.is_nowhere())
         return;
     writer_.emplace(output);
     if (!is_csv_)
         return;
-    writer_->append(is_swept ? "frame,a,b" : "frame,object_a,object_b,a,b");
+    writer_->append(of_features ? "frame,a,b" : "frame,object_a,object_b,a,b");
     writer_->append(with == With::times       ? ",time\n"
                     : with == With::distances ? ",distance,ax,ay,az,bx,by,bz\n"
                                               : "\n");
@@ -50,7 +50,7 @@ std::string PairsFile::lines(std::span<const Pair> pairs, std::span<const float>
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         const Pair pair = pairs[k];
         text += std::to_string(frame);
-        if (!is_swept_) {
+        if (!of_features_) {
             put(objects_[pair.a]);
             put(objects_[pair.b]);
         }
@@ -72,7 +72,7 @@ std::string PairsFile::lines(std::span<const Pair> pairs, std::span<const float>
 }
 
 void PairsFile::add(const PairList& pairs, std::size_t frame, const Scene& scene,
-                    std::span<const float> times)
+                    std::span<const float> times, std::span<const Face> features)
 {
     if (!writer_)
         return;
@@ -82,10 +82,11 @@ void PairsFile::add(const PairList& pairs, std::size_t frame, const Scene& scene
         return;
     }
     if (std::exchange(scene_, &scene) != &scene) {
-        if (!is_swept_)
+        if (!of_features_)
             objects_ = objects_in_file(scene);
         if (with_ == With::distances)
-            faces_ = faces_in_file(scene);
+            faces_ =
+                of_features_ ? std::vector(features.begin(), features.end()) : faces_in_file(scene);
     }
     std::span<const Point> points;
     if (with_ == With::distances)

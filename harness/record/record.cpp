@@ -12,7 +12,6 @@ namespace bvhbench {
 
 BVHBENCH_TO_JSON(StageTime, stage, launches, busy_ns, span_ns, moved_bytes, start_ns, queued_ns,
                  submitted_ns)
-BVHBENCH_TO_JSON(SweptFacts, pairs, to_frame, primitives)
 BVHBENCH_TO_JSON(Outlier, of, triangle, diameters)
 BVHBENCH_TO_JSON(FirstRun, compile_ns, run_ns)
 BVHBENCH_TO_JSON(MeshFacts, unused_vertices, weldable_vertices, shared_edges, open_edges,
@@ -20,6 +19,13 @@ BVHBENCH_TO_JSON(MeshFacts, unused_vertices, weldable_vertices, shared_edges, op
                  median_edge, float_step, expected_pairs)
 BVHBENCH_TO_JSON(Reading, polygons_cut, polygons_concave, polygons_crossing, joined_vertices,
                  surprises, ignored)
+
+static void to_json(Json& json, const FeatureFacts& features)
+{
+    json = {{"pairs", features.pairs}};
+    put_if(json, "to_frame", features.to_frame);
+    json["primitives"] = features.primitives;
+}
 
 static void to_json(Json& json, const Sample& sample)
 {
@@ -110,8 +116,8 @@ std::string cell_text(const Cell& cell)
                                {"device", library->device},
                                {"file", std::filesystem::path(library->file).filename().string()},
                                {"as", library->is_program ? "program" : "plugin"}};
-    if (!cell.swept.pairs.empty())
-        json["swept"] = cell.swept;
+    if (!cell.features.pairs.empty())
+        json[cell.features.to_frame > 0 ? "swept" : "features"] = cell.features;
     if (!cell.accuracy.axis.empty())
         json["accuracy"] = {{"axis", cell.accuracy.axis}, {"method", cell.accuracy.method}};
     if (cell.accuracy.seed > 0)

@@ -74,10 +74,11 @@ struct SceneFacts {
     std::uint64_t content_hash = 0;
 };
 
-/// Query for pairs of boxes that are swept from one frame to another.
-struct SweptFacts {
-    std::string pairs;            ///< vertex-face or edge-edge; empty: boxes are not swept
-    std::int64_t to_frame = 0;    ///< frame of the end; SceneFacts::frame is that of the start
+/// Query for pairs of features in place of triangles.
+struct FeatureFacts {
+    std::string pairs;  ///< vertex-face or edge-edge; empty: pairs are of triangles
+    std::int64_t to_frame =
+        0;  ///< to which boxes are swept from SceneFacts::frame; 0: they are not
     std::int64_t primitives = 0;  ///< number of vertices and faces, or of edges
 };
 
@@ -111,7 +112,7 @@ struct Cell {
     SceneFacts scene;
     BuilderChoice builder;
     ColliderChoice collider;  ///< empty name: none
-    SweptFacts swept;
+    FeatureFacts features;
     AccuracyFacts accuracy;
     Json cluster = {};  ///< of several ranks: what record/cluster_result.h has; else null
     Operation operation = Operation::build;

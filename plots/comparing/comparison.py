@@ -114,5 +114,5 @@ def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair]
 
 def group_of(cell: Cell) -> tuple[str, ...]:
     """Returns a key that is equal for cells whose times are comparable: other builders or colliders on one scene and frame."""
-    return (cell.experiment, cell.scene_facts["name"], str(cell.frame), cell.operation, cell.swept.get("pairs", ""),
+    return (cell.experiment, cell.scene_facts["name"], str(cell.frame), cell.operation, cell.features.get("pairs", ""),
             cell.accuracy.get("axis", ""), cell.caches, "leaves" if cell.starts_from_leaves else "")

@@ -14,7 +14,7 @@ def name_of(cell: Cell) -> str:
         words += [name] * (name != "none") + [f"{key}:{value}" for key, value in options]
     words += [f"{key}:{value}" for key, value in own.get("accuracy", {}).items()]
     words += ["refit"] * (own["operation"] == "refit") + ["sorted-leaves"] * cell.starts_from_leaves
-    words += [f"swept:{own['swept'][0]}", f"to_frame:{own['swept'][1]}"] if cell.swept else []
+    words += [f"swept:{own['swept'][0]}", f"to_frame:{own['swept'][1]}"] if cell.swept else [f"features:{own['swept'][0]}"] * bool(cell.features)
     words += [own["caches"]] * (own["caches"] != "hot")
     return "/".join(str(word).replace(" ", "_") for word in words)
 

@@ -41,7 +41,7 @@ def frame_figures(run: results.Run, experiment: str) -> Iterator[tuple[str, figu
     """Returns one figure for each set of requested answers, because they take different times."""
     def asked_of(cell: results.Cell) -> tuple[str, ...]:
         options = dict(cell.collider_options)
-        return *(options.get(key, usual) for key, usual in ANSWERS.items()), cell.swept.get("pairs", "")
+        return *(options.get(key, usual) for key, usual in ANSWERS.items()), cell.features.get("pairs", "")
 
     for asked, cells in results.grouped(run.all_frames(experiment), asked_of).items():
         if len({(cell.scene, cell.called) for cell in cells}) > MOST_BARS:

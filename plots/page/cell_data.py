@@ -44,11 +44,11 @@ def asked(cell: Cell) -> str:
     """Returns what a query was asked for, and where samples found their data. Cells that were asked for different things
     must not be compared."""
     caches = [names.CACHES[cell.caches]] if cell.caches in names.CACHES else []
-    swept = [cell.swept["pairs"]] if cell.swept else []
+    features = [cell.features["pairs"]] if cell.features else []
     if not cell.collider or cell.accuracy:
-        return ", ".join(swept + caches)
+        return ", ".join(features + caches)
     options = dict(cell.collider_options)
-    words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs", *swept]
+    words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs", *features]
     if options.get("adjacent") == "drop":
         words.append("adjacent dropped")
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")

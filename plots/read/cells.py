@@ -99,6 +99,7 @@ class Cell:
         if self.outside:
             names.OUTSIDE[self.outside["name"]] = None
         self.swept: dict[str, Any] = raw.get("swept", {})  # kind of pairs and target frame; empty if boxes are of one frame
+        self.features: dict[str, Any] = raw.get("features", self.swept)  # the same of one frame too; empty if pairs are of triangles
 
     @property
     def verdict(self) -> str:
@@ -226,9 +227,9 @@ class Cell:
             return f"{name or ''} over {builder}, {', '.join(f'{key} {value}' for key, value in of_ranks(self.cluster).items())}"
         caches = f", {names.CACHES[self.caches]}" if self.caches in names.CACHES else ""
         if self.operation == "collide":
-            swept = f"{self.swept['pairs']} by " if self.swept else ""
+            features = f"{self.features['pairs']} by " if self.features else ""
             collider = names.in_full({"name": name, "options": collider_options})
-            return f"{swept}{collider}{'' if self.builder == 'none' else f' over {builder}'}{caches}"
+            return f"{features}{collider}{'' if self.builder == 'none' else f' over {builder}'}{caches}"
         return f"{builder}{', refit' if self.operation == 'refit' else ''}{caches}"
 
     @property
@@ -276,9 +277,9 @@ def parts(raw: dict[str, Any], without: str = "") -> dict[str, Any]:
     told |= {"cluster": of_ranks(raw["cluster"])} if "cluster" in raw else {}
     told |= {part: choice(raw[part], without) for part in ("builder", "collider") if part in raw}
     told |= {name: scene.get(name, usual) for name, usual in OF_SCENE.items()}
-    swept, sampling = raw.get("swept", {}), raw.get("sampling", {})
+    features, sampling = raw.get("features", raw.get("swept", {})), raw.get("sampling", {})
     return told | {"scene": scene["name"], "operation": raw.get("operation", "build"), "caches": sampling.get("caches", "hot"),
-                   "swept": (swept.get("pairs"), swept.get("to_frame"))}
+                   "swept": (features.get("pairs"), features.get("to_frame"))}
 
 
 def identity(raw: dict[str, Any]) -> str:

@@ -146,7 +146,7 @@ def warning_lines(cells: Sequence[Cell]) -> str:
 def of_cells(cells: Sequence[Cell]) -> str:
     """Returns the answer of a result file's cells as a line, or nothing where they give none: they must be several builders or
     pipelines over one scene, that answer one question, all with right answers."""
-    kinds = {(cell.operation, cell.raw.get("experiment"), cell.caches, cell.scene, bool(cell.swept), cell.starts_from_leaves,
+    kinds = {(cell.operation, cell.raw.get("experiment"), cell.caches, cell.scene, bool(cell.swept), cell.starts_from_leaves, cell.features.get("pairs"),
               *(dict(cell.collider_options).get(key, names.USUAL[key]) for key in QUESTION)) for cell in cells if cell.has_times}
     measured = [cell for cell in cells if cell.status == "measured"]
     if len(kinds) != 1 or not all(cell.checked for cell in measured):

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 Path = str | os.PathLike[str]
 CELL = ("file", "experiment", "scene", "triangles", "frame", "stand_in_for", "builder", "collider", "operation", "axis", "method",
-        "seed", "swept", "to_frame", "caches")
+        "seed", "features", "swept", "to_frame", "caches")
 SAMPLE = ("status", "verdict", "order", "drifted", "stage", "ns", "launches", "moved_bytes", "start_ns")
 
 
@@ -52,7 +52,7 @@ def facts(cell: Cell) -> dict[str, Any]:
     known = {"experiment": cell.experiment, "scene": cell.scene, "triangles": cell.scene_facts.get("triangles"),
              "frame": cell.frame, "stand_in_for": cell.stand_in_for, "builder": cell.builder, "collider": cell.collider,
              "operation": cell.operation, **{key: cell.accuracy.get(key) for key in ("axis", "method", "seed")},
-             "swept": cell.swept.get("pairs"), "to_frame": cell.swept.get("to_frame"),
+             "features": cell.raw.get("features", {}).get("pairs"), "swept": cell.swept.get("pairs"), "to_frame": cell.swept.get("to_frame"),
              "caches": cell.raw.get("sampling", {}).get("caches"), "status": cell.status,
              "verdict": cell.verdict if cell.status == "measured" else None}
     for part, prefix in (("builder", "option"), ("collider", "collider")):

@@ -15,7 +15,8 @@ OPTIONS = {"grid": ("builder", "grid"), "builder.group_size": ("builder", "group
            "no_skip": ("query", "no_skip"), "force_skip": ("query", "force_skip"), "update": ("query", "update"), "trees": ("query", "trees"),
            "jump": ("collider", "jump"), "start_level": ("collider", "start_level"),
            "collider.group_size": ("collider", "group_size"), "frames": ("scene", "frames"), "between": ("scene", "between"),
-           "objects": ("scene", "objects"), "swept": ("scene", "swept")}
+           "objects": ("scene", "objects"), "swept": ("scene", "swept"),
+           "features": ("scene", "features")}
 
 
 @dataclass
@@ -94,7 +95,7 @@ def unexpanded(one: Planned, sweep: Sweep) -> Json:
     raw = {"experiment": sweep.name, "scene": scene, "builder": choice(one.builder or {"name": NO_BUILDER}),
            "operation": "build" if one.collider is None else "collide", "status": "skipped"}
     if one.collider is not None:
-        of_scene = {"adjacent": "drop"} if one.scene.get("swept") else {}
+        of_scene = {"adjacent": "drop"} if one.scene.get("swept") or one.scene.get("features") else {}
         of_scene |= {"pairs_of": one.scene["pairs_of"]} if "pairs_of" in one.scene else {}
         raw["collider"] = choice(one.collider | one.query | of_scene)
     return raw

@@ -14,7 +14,7 @@ KEYS = ("sweep", "question", "scenes", "sizes", "builders", "orders", "colliders
 HOLE = "{size}"
 MOST_CELLS = 1_000_000
 USUAL_BUILDER, USUAL_COLLIDER = "oibvh-multi", "leaf"
-UNTOLD = ("frames", "swept")  # result files do not distinguish cells by these
+UNTOLD = ("frames", "swept", "features")  # result files do not distinguish cells by these
 
 
 def listed(described: Json, key: str) -> list[Any]:
@@ -144,7 +144,7 @@ def with_options(one: Planned, options: list[tuple[str, list[str]]], chosen: tup
         whose, own = OPTIONS[key]
         place = {"builder": one.builder, "collider": one.collider, "query": one.query, "scene": one.scene}[whose]
         if place is not None:
-            place[own] = value == "true" if own == "swept" and value in ("true", "false") else value
+            place[own] = value == "true" if own in ("swept", "features") and value in ("true", "false") else value
     return one
 
 
@@ -180,8 +180,8 @@ def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list
             raise WrongUsage(f"the scene '{scene['scene']}' says what is for colliders, and the sweep has none")
         if "pairs_of" in scene and "pairs_of" in dict(options):
             raise WrongUsage(f"the scene '{scene['scene']}' says which pairs it is about, which leaves none to the sweep")
-        if scene.get("swept") and len(dict(options).get("pairs_of", ())) > 1:
-            raise WrongUsage(f"the scene '{scene['scene']}' is swept: all its pairs are those between and within, so 'pairs_of' "
+        if (scene.get("swept") or scene.get("features")) and len(dict(options).get("pairs_of", ())) > 1:
+            raise WrongUsage(f"the scene '{scene['scene']}' has features: all its pairs are those between and within, so 'pairs_of' "
                              "may have one value")
     first_scene = len(builders) + sum(collider is not None for collider in colliders)
     return answers[len(builders):first_scene], answers[first_scene:first_scene + len(scenes)]

@@ -243,7 +243,7 @@ TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
     std::vector<std::optional<std::uint64_t>> hashes;
     for (const Cell& cell : cells) {
         EXPECT_EQ(cell.check.verdict, Check::Verdict::agrees) << cell.check.detail << cell.reason;
-        EXPECT_EQ(cell.swept.to_frame, cell.scene.frame + 1);
+        EXPECT_EQ(cell.features.to_frame, cell.scene.frame + 1);
         EXPECT_EQ(cell.counters.at("missed_count"), 0);
         hashes.push_back(cell.check.pairs_hash);
     }

@@ -12,11 +12,19 @@
 namespace bvhbench {
 namespace {
 
-/// Returns pairs of a class: at night a million of all classes.
-Mesh pairs_of(const PairClass& of, uint seed)
+/// Returns pairs of a class, or with `features` a vertex and a face, and two edges, of their triangles by turns: at night a million of all
+/// classes.
+Mesh pairs_of(const PairClass& of, uint seed, bool features)
 {
     const auto classes = static_cast<uint>(pair_classes().size());
-    return apart_pairs(of, takes_all_cases() ? 1000000 / classes + 1 : 64, seed);
+    Mesh mesh = apart_pairs(of, takes_all_cases() ? 1000000 / classes + 1 : 64, seed);
+    for (std::size_t k = 0; features && k < mesh.faces.size(); k += 2) {
+        Face &a = mesh.faces[k], &b = mesh.faces[k + 1];
+        const bool of_edges = k % 4 == 2;
+        a = {a.a, of_edges ? a.b : a.a, of_edges ? a.b : a.a};
+        b.c = of_edges ? b.b : b.c;
+    }
+    return mesh;
 }
 
 bool is_within(const Mesh& mesh, Pair pair, double distance)
@@ -73,36 +81,41 @@ class WithinClasses : public OfAClass {};
 
 TEST_P(WithinClasses, AreThoseOfTheOracle)
 {
-    const Mesh mesh = pairs_of(GetParam(), 21);
-    const std::vector<Pair> pairs = neighbours(mesh);
-    const Candidates candidates(mesh, pairs);
-    for (const double distance : {0.0, 5e-324, 1e-30, 1e39})
-        expect_right(candidates, distance);
-    for (std::size_t k = 0; k < (takes_all_cases() ? 4 : 1); ++k) {
-        const double least = least_distance(mesh, pairs[k]);
-        for (const double distance :
-             {std::nextafter(least, 0.0), least, std::nextafter(least, 1e300)})
+    for (const bool features : {false, true}) {
+        const Mesh mesh = pairs_of(GetParam(), 21, features);
+        const std::vector<Pair> pairs = neighbours(mesh);
+        const Candidates candidates(mesh, pairs);
+        for (const double distance : {0.0, 5e-324, 1e-30, 1e39})
             expect_right(candidates, distance);
+        for (std::size_t k = 0; k < (takes_all_cases() ? 4 : 2); ++k) {
+            const double least = least_distance(mesh, pairs[k]);
+            for (const double distance :
+                 {std::nextafter(least, 0.0), least, std::nextafter(least, 1e300)})
+                expect_right(candidates, distance);
+        }
     }
 }
 
 /// Each pair at its own distance, where the oracle's answer changes within a few doubles.
 TEST_P(WithinClasses, AreToldAtTheirOwnDistance)
 {
-    const Mesh mesh = pairs_of(GetParam(), 22);
-    const std::vector<Pair> pairs = neighbours(mesh);
-    std::atomic<int> wrong = 0;
-    on_all_cores(pairs.size(), [&](std::size_t k) {
-        const double near = closest_points(corners_of(mesh.points, mesh.faces[pairs[k].a]),
-                                           corners_of(mesh.points, mesh.faces[pairs[k].b]))
-                                .distance;
-        for (const double distance : {std::nextafter(near, 0.0), near, std::nextafter(near, 1e300)})
-            wrong += are_within(mesh.points, mesh.faces, pairs[k], {.distance = distance}) !=
-                             is_within(mesh, pairs[k], distance)
-                         ? 1
-                         : 0;
-    });
-    EXPECT_EQ(wrong, 0);
+    for (const bool features : {false, true}) {
+        const Mesh mesh = pairs_of(GetParam(), 22, features);
+        const std::vector<Pair> pairs = neighbours(mesh);
+        std::atomic<int> wrong = 0;
+        on_all_cores(pairs.size(), [&](std::size_t k) {
+            const double near = closest_points(corners_of(mesh.points, mesh.faces[pairs[k].a]),
+                                               corners_of(mesh.points, mesh.faces[pairs[k].b]))
+                                    .distance;
+            for (const double distance :
+                 {std::nextafter(near, 0.0), near, std::nextafter(near, 1e300)})
+                wrong += are_within(mesh.points, mesh.faces, pairs[k], {.distance = distance}) !=
+                                 is_within(mesh, pairs[k], distance)
+                             ? 1
+                             : 0;
+        });
+        EXPECT_EQ(wrong, 0);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, WithinClasses, all_classes, ClassName());

@@ -55,7 +55,7 @@ def test_other_colliders_are_skipped_with_the_reason():
 
 def test_what_does_not_go_with_it_is_refused_in_one_sentence():
     for words, why in ((("--narrow", "sat-f32", "--adjacent", "drop"), "the first contact is exact: beside 'first' 'narrow' is none or exact"),
-                       (("--swept",), "'first' is about triangles of one moment, and swept boxes are not"),
+                       (("--swept",), "'first' is about triangles, and swept pairs are of vertices, faces and edges"),
                        (("--pairs", "p.csv"), "finds contacts and no pairs of boxes: --contacts, not --pairs"),
                        (("--narrow", "exact", "--containment"), "needs all exact contacts between objects")):
         expect(2, *COLLIDE, "n-body:6100:3", *words, says=why)

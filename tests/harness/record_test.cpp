@@ -84,7 +84,7 @@ TEST(Record, TellsAllThatACellIsAbout)
     cell.scene.rounding = {Doubles::recentred, {4500123.45, -2, 0.1}, -3, 17, 1.25e-7};
     cell.scene.objects_by = "components";
     cell.scene.between = 3;
-    cell.swept = {"edge-edge", 5, 900};
+    cell.features = {"edge-edge", 5, 900};
     cell.accuracy = {"narrow", "guigue-f64", 7};
     cell.left_out = {{"epo", "not asked for"}};
     cell.leaves_by_depth = {0, 1, 2};

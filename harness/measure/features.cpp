@@ -4,13 +4,14 @@
 
 #include "builders/box_format.h"
 #include "geometry/error.h"
+#include "harness/choice/distance_words.h"
 #include "harness/measure/collide.h"
 #include "scenes/ground_truth.h"
 
 namespace bvhbench {
 namespace {
 
-/// One of the two queries of a step: its primitives, the kind of pairs, and where the ground truth has its answers.
+/// One of the two queries of a step or frame: its primitives, the kind of pairs, and where the ground truth has its answers.
 struct Question {
     const char* name;
     Among among;
@@ -58,15 +59,20 @@ void judge_step(const Question& question, const GroundTruth& truth, const Found&
     }
 }
 
-/// Moves both queries on to the next step. The end points of the last step become the start points without another upload.
+/// Moves both queries on to the next frame, or to the step from it. The end points of the last step become the start points without
+/// another upload.
 void advance(Question (&questions)[2], const Scene& scene, std::size_t frame, const Queue& queue)
 {
     Input& first = questions[0].input;
-    std::swap(first.device_points, first.device_end_points);
-    first.device_end_points.upload(queue.cl(), scene.frames[frame + 1]);
+    const bool is_swept = first.is_swept();
+    if (is_swept)
+        std::swap(first.device_points, first.device_end_points);
+    (is_swept ? first.device_end_points : first.device_points)
+        .upload(queue.cl(), scene.frames[is_swept ? frame + 1 : frame]);
     for (Question& question : questions) {
         question.input.points = scene.frames[frame];
-        question.input.end_points = scene.frames[frame + 1];
+        if (is_swept)
+            question.input.end_points = scene.frames[frame + 1];
         question.input.device_points = first.device_points;
         question.input.device_end_points = first.device_end_points;
     }
@@ -74,15 +80,16 @@ void advance(Question (&questions)[2], const Scene& scene, std::size_t frame, co
 
 }  // namespace
 
-void collide_swept(Session& session, const CollideTask& task, int& order, const AddFrame& add,
-                   const PassCells& passes)
+void collide_features(Session& session, const CollideTask& task, int& order, const AddFrame& add,
+                      const PassCells& passes)
 {
-    check_swept(task);
+    check_features(task);
     const Scene scene = scene_of(task, session.scenes());
-    if (scene.frames.size() < 2)
+    if (task.swept && scene.frames.size() < 2)
         throw Unavailable("swept boxes need two frames, and scene '" + task.scene +
                           "' has one; bend:" + task.scene + " has two");
-    const FrameRange steps = frames_of(task, scene.frames.size() - 1, "steps");
+    const FrameRange steps = task.swept ? frames_of(task, scene.frames.size() - 1, "steps")
+                                        : frames_of(task, scene.frames.size(), "frames");
 
     Question questions[] = {
         {"vertex-face", Among::between_objects, vertices_and_faces(scene),
@@ -95,6 +102,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
         for (PipelineChoice pipeline : task.pipelines) {
             const Among among = std::exchange(pipeline.collider.among, question.among);
             pipeline.collider.keep_adjacent = false;
+            pipeline.collider.distance = distance_of(pipeline.collider.within, scene);
             if (pipeline.collider.trees == TreeOver::automatic)
                 pipeline.collider.trees = TreeOver::object;
             if (among == Among::all || among == question.among)
@@ -104,11 +112,14 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
     const std::size_t cells_a_step = questions[0].pipelines.size() + questions[1].pipelines.size();
     if (passes && passes((steps.end - steps.first) * cells_a_step * task.sampling.caches.size()))
         return;
-    const std::optional<GroundTruth> truth = ground_truth_of(scene, questions[1].parts);
+    std::optional<GroundTruth> truth;
+    if (task.swept)
+        truth = ground_truth_of(scene, questions[1].parts);
     Input& first = questions[0].input;
     first = upload(session.device(), session.queue(), scene.frames[steps.first],
                    questions[0].parts.faces, questions[0].parts.objects);
-    upload_end(first, session.device(), session.queue(), scene.frames[steps.first + 1]);
+    if (task.swept)
+        upload_end(first, session.device(), session.queue(), scene.frames[steps.first + 1]);
     questions[1].input = upload_over(first, session.device(), session.queue(),
                                      questions[1].parts.faces, questions[1].parts.objects);
 
@@ -123,11 +134,11 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                 .contest = question.contest,
                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
                 .scene = facts_of(task, scene, step)};
-            now.note = note_of(task, "step " + std::to_string(step), step - steps.first,
-                               steps.end - steps.first);
-            now.swept = {.pairs = question.name,
-                         .to_frame = static_cast<std::int64_t>(step + 1),
-                         .primitives = question.input.triangle_count()};
+            now.note = note_of(task, (task.swept ? "step " : "frame ") + std::to_string(step),
+                               step - steps.first, steps.end - steps.first);
+            now.features = {.pairs = question.name,
+                            .to_frame = task.swept ? static_cast<std::int64_t>(step + 1) : 0,
+                            .primitives = question.input.triangle_count()};
             now.wants_lists = task.wants_lists;
             if (truth && truth->from_frame == step) {
                 now.wants_lists = true;
@@ -136,7 +147,10 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                 };
             }
             Found found{.scene = &scene};
-            add(run_frame(session, task, question.pipelines, now, order, found), found);
+            std::vector<Cell> cells =
+                run_frame(session, task, question.pipelines, now, order, found);
+            found.features = question.parts.faces;
+            add(std::move(cells), found);
         }
     }
 }
