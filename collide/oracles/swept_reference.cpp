@@ -137,13 +137,22 @@ std::optional<ImpactTime> impact_time(const MovingQuery& query, double finest, C
             in_one_plane = in_whole_numbers(query).volume().is_zero();
         if (CGAL::certainly(in_one_plane))
             volume.of.fill(Interval(0));
-        // Features in one plane touch from the first time on for a while, before which an interval or two remain undecided.
-        Search search{volume, *near, finest, CGAL::certainly(in_one_plane) ? 4 : 1};
-        const Truth touch = search.during(0, 1);
-        if (CGAL::certainly_not(touch))
-            return std::nullopt;
-        if (CGAL::certainly(touch))
-            return ImpactTime{*search.no_sooner, search.no_later};
+        Truth at_start = Truth(CGAL::is_zero(volume.of[0]));
+        if (!CGAL::certainly_not(at_start))
+            at_start = at_start & meet(*near, SignDuring{0});
+        if (CGAL::certainly(at_start))
+            return ImpactTime{0, 0};
+        // Features in one plane touch from the first time on for a while, before which an interval or two remain undecided. Where it is not
+        // certain whether they do at the start, the search would end there.
+        const bool is_flat = CGAL::certainly(in_one_plane);
+        if (!is_flat || CGAL::certainly_not(at_start)) {
+            Search search{volume, *near, finest, is_flat ? 4 : 1};
+            const Truth touch = search.during(0, 1);
+            if (CGAL::certainly_not(touch))
+                return std::nullopt;
+            if (CGAL::certainly(touch))
+                return ImpactTime{*search.no_sooner, search.no_later};
+        }
     }
     ++checked.by_roots;
     return first_touch(in_whole_numbers(query), &*near);
