@@ -97,12 +97,13 @@ void collide_features(Session& session, const CollideTask& task, int& order, con
          &GroundTruth::swept_vertex_face},
         {"edge-edge", Among::within_objects, unique_edges(scene), &GroundTruth::edge_edge,
          &GroundTruth::touching_edge_edge, &GroundTruth::swept_edge_edge}};
+    const Aabb around = box_around(scene.frames.front(), scene.faces);
     for (Question& question : questions) {
         question.contest = Contest(task.sampling.race);
         for (PipelineChoice pipeline : task.pipelines) {
             const Among among = std::exchange(pipeline.collider.among, question.among);
             pipeline.collider.keep_adjacent = false;
-            pipeline.collider.distance = distance_of(pipeline.collider.within, scene);
+            pipeline.collider.distance = distance_of(pipeline.collider.within, around);
             if (pipeline.collider.trees == TreeOver::automatic)
                 pipeline.collider.trees = TreeOver::object;
             if (among == Among::all || among == question.among)

@@ -146,7 +146,7 @@ std::array<std::size_t, 2> errors_of(std::string_view method, KernelForm form, c
     return {missed.size(), more.size()};
 }
 
-using RoundingErrors = WithCgal<testing::Test>;
+using RoundingErrors = Needing<testing::Test, cgal_absent>;
 
 TEST_F(RoundingErrors, AreNoneWhereNothingIsClose)
 {

@@ -10,7 +10,7 @@
 #include "tests/all_cases.h"
 #include "tests/collide/many_objects.h"
 #include "tests/collide/near_objects.h"
-#include "tests/collide/with_cgal.h"
+#include "tests/needing.h"
 
 namespace bvhbench {
 namespace {
@@ -303,7 +303,7 @@ void expect_contacts_stand(unsigned seed, std::map<std::string, double>& sums)
     }
 }
 
-using MarginContacts = WithCgal<testing::Test>;
+using MarginContacts = Needing<testing::Test, cgal_absent>;
 
 TEST_F(MarginContacts, StandAndThoseOfWhatMoves)
 {
