@@ -6,7 +6,8 @@ WRONG = ("missed_count", "false_count")
 
 def narrow(doc: Document) -> None:
     file = File("pocl-2-cores/accuracy-narrow")
-    of = {method: {cell.scene: cell.counters for cell in file.cells if cell.accuracy["method"] == method} for method in METHODS}
+    of = {method: {cell.scene: cell.counters for cell in file.cells if cell.accuracy["method"] == method}
+          for method in dict.fromkeys(cell.accuracy["method"] for cell in file.cells)}
     doc.table("narrow", "< | missed | false | classes with errors", (
         [f"`{method}`", *(sum(one[key] for one in classes.values()) for key in WRONG),
          sum(any(one[key] for key in WRONG) for one in classes.values())] for method, classes in of.items()))
