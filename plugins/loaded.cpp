@@ -135,8 +135,7 @@ private:
         Json methods = Json::array();
         for (const bvhbench_method& method : methods_) {
             const std::string name = text_of(method.name, "name");
-            const bool answers = method.load_queries != nullptr && method.answer != nullptr &&
-                                 method.times != nullptr;
+            const bool answers = method.load_queries && method.answer && method.times;
             for (const auto& [call, is_there] : {std::pair("create", method.create != nullptr),
                                                  {"prepare", answers || method.prepare != nullptr},
                                                  {"load", answers || method.load != nullptr},
@@ -155,7 +154,8 @@ private:
                                {"steps", method.load_step != nullptr},
                                {"within", method.query_within != nullptr},
                                {"narrow", method.load_candidates && method.narrow},
-                               {"finds_contacts", method.finds_contacts != 0}});
+                               {"finds_contacts", method.finds_contacts != 0},
+                               {"widens_boxes", method.widens_boxes != 0}});
         }
         return {{"ok", true},
                 {"protocol", protocol},

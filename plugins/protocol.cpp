@@ -95,6 +95,7 @@ Method method_of(const Json& entry)
     method.steps = truth_at(entry, "steps");
     method.within = truth_at(entry, "within");
     method.narrows = truth_at(entry, "narrow");
+    method.widens = truth_at(entry, "widens_boxes");
     if ((method.queries || method.narrows) && !truth_at(entry, "pairs"))
         throw Unavailable("its method " + method.name + " has `" +
                           (method.queries ? "query" : "narrow") +

@@ -37,6 +37,7 @@ struct Method {
     bool steps = false;    ///< finds pairs of a step too, and of those leaves out what a mesh says
     bool within = false;   ///< finds pairs within a distance too
     bool narrows = false;  ///< tests given pairs of triangles
+    bool widens = false;   ///< rounds boxes outward
 
     bool is_builder() const { return builds && has_tree; }
 };

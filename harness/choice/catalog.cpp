@@ -317,6 +317,12 @@ const ColliderEntry& find_collider(std::string_view name)
     return find_or_broken(collider_catalog(), outside_entries().broken_colliders, name, "collider");
 }
 
+bool widens_boxes(const BuilderChoice& builder, const ColliderChoice& collider)
+{
+    const outside::Offer* const offer = find_collider(collider.name).outside;
+    return offer ? offer->method.widens : find_box_format(builder.boxes).has_cells();
+}
+
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
 {
     check_narrow(choice.narrow, choice.keep_adjacent);

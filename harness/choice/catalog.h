@@ -130,6 +130,9 @@ struct ColliderChoice : ColliderOptions {
 /// unsuitable, and Unavailable if this binary was built without it.
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
 
+/// True if boxes are rounded outward, by their format or by a collider from outside, so that more pairs are found than overlap.
+bool widens_boxes(const BuilderChoice& builder, const ColliderChoice& collider);
+
 /// Adds the methods of a library from outside to both catalogs, with what its processes may take. Called before the catalogs are
 /// used, because they do not change afterwards. Throws BadUsage if a name is taken, and then adds nothing.
 void add_outside(outside::Library library, const outside::Limits& limits);

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "builders/box_format.h"
 #include "collide/narrow/narrow_methods.h"
 #include "collide/oracles/exact_reference.h"
 #include "geometry/hash.h"
@@ -139,7 +138,7 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
 bool FrameVerdict::needs_no_list(const Pipeline& pipeline, const Cell& cell) const
 {
     return !pipeline.collider().is_on_host() && !frame_.wants_lists &&
-           cell.features.pairs.empty() && !find_box_format(cell.builder.boxes).has_cells();
+           cell.features.pairs.empty() && !widens_boxes(cell.builder, cell.collider);
 }
 
 void FrameVerdict::judge_pairs(Pipeline& pipeline, Cell& cell, Found& found)
@@ -167,7 +166,7 @@ void FrameVerdict::judge_pairs_by_list(const Pipeline& pipeline, const Expected&
 {
     const FoundList pairs(pipeline.pairs(), expected, frame_);
     cell.check.against = pairs_oracle;
-    if (find_box_format(cell.builder.boxes).has_cells())
+    if (widens_boxes(cell.builder, cell.collider))
         check_candidates(pairs.list(), expected.list().list, !pipeline.has_contacts(), cell);
     else
         pairs.add_differences("pairs", cell.check);

@@ -243,7 +243,7 @@ static int is_sought(const State *s, uint32_t a, uint32_t b)
 static int query_within(void *state, double distance, bvhbench_stages *stages)
 {
     State *s = state;
-    int added = !is("false-pair");
+    int added = !is("false-pair") && !is("wide");
     begin(stages, "broad");
     s->pair_count = 0;
     for (uint32_t a = 0; a < s->mesh.triangles; ++a) {
@@ -419,6 +419,7 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
         plugin.abi = 2;
         return &plugin;
     }
+    methods[1].widens_boxes = is("wide");
     if (is("contacts") || is("no-contacts"))
         methods[1].finds_contacts = 1;
     if (is("abi"))

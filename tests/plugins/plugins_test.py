@@ -346,6 +346,8 @@ def test_pairs_of_a_step_and_within_a_distance_are_held_to_the_oracles_and_skipp
             assert found["every-two-contacts"]["check"]["verdict"] == contacts, found
             for fault in ("missed-pair", "false-pair", "no-contacts"):
                 differs(found[f"every-two-{fault}"])
+    wide = cells("collide", *wrong("--plugin", "wide"), "--collider", "every-two-wide", *step, "--pairs-of", "within")["every-two-wide"]
+    assert wide["check"]["verdict"] == "counted" and wide["counters"]["false_pairs_count"] == 1 and wide["samples"], wide
     # An inexact narrow phase makes no claim about contacts that a method finds itself.
     inexact = ("--narrow", "guigue-f32", "--adjacent", "drop")
     agree(cells("collide", *wrong_ones, "--collider", "every-two-contacts", *rows, *inexact), "every-two-contacts")

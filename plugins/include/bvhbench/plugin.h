@@ -141,6 +141,9 @@ typedef struct bvhbench_method {
     int (*load_candidates)(void *state, uint64_t count, const uint32_t *two_each);
     /* From these to those that intersect, which `pairs` gives: the stage `narrow`. */
     int (*narrow)(void *state, bvhbench_stages *stages);
+
+    /* 1 if boxes are rounded outward: pairs may be more than overlap, which are counted, and none may be missed. */
+    uint32_t widens_boxes;
 } bvhbench_method;
 
 typedef struct bvhbench_plugin {
