@@ -40,6 +40,7 @@ def parser() -> command.Parser:
     add("--adjacent", help="keep or drop pairs that share a vertex index")
     add("--narrow", help="which pairs intersect: a name of `list narrow`, exact, or none")
     add("--within", help="pairs of triangles at most this far apart, as of `collide`")
+    add("--features", action="store_const", const="true", help="the same of vertices and faces, or edges: --pairs-of between or within")
     add("--max-samples", type=int, default=MOST, help="samples of those that nobody beats")
     add("--all", action="store_true", help="print every row, and all that was left out")
     add("--out", default="best.json", help="the result file; the figure is beside it")
@@ -105,7 +106,7 @@ def repeated(plan: Plan, found: ranking.Ranking) -> list[str]:
     lines = []
     for scene in plan.scenes:
         options = plan.query | {key: value for key, value in plan.scene_of(scene).items() if key != "scene"}
-        words = [word for key, value in options.items() for word in ("--" + key.replace("_", "-"), value)]
+        words = [word for key, value in options.items() for word in ("--" + key.replace("_", "-"), value) if word != "true"]
         lines.append(ranking_text.repeated(found.rows[0], scene["scene"], [*words, *plan.words]))
     return lines
 

@@ -14,7 +14,7 @@ NAME = "best"
 OWN = ({"scene": "hairball:30000"}, {"scene": "cloth-ball:20000:16", "frames": "12:15"},
        {"scene": "n-body:20000:16", "frames": "8:10", "pairs_of": "between"})
 QUESTION = ("adjacent", "narrow", "pairs_of", "within")
-OF_SCENE = ("frames", "objects")
+OF_SCENE = ("frames", "objects", "features")
 RACES = {"frame": "whole", "build": "whole", "query": "query", "memory": "memory"}
 UNTIL, LEAST, MOST = 0.05, 5, 12  # quartile range, and samples, of those that nobody beats
 USUAL = "soup:70"  # a scene to check names with
@@ -56,6 +56,8 @@ class Plan:
         if self.objective == "build" and (self.query or arguments.colliders is not None):
             option = next(iter(self.query), "colliders").replace("_", "-")
             raise WrongUsage(f"--{option} is for pairs, and --for build makes trees only")
+        if arguments.features and self.query.get("pairs_of", "all") == "all":
+            raise WrongUsage("--features has two questions: choose by --pairs-of between, of vertices and faces, or within, of edges")
         self.scenes = scenes_of(arguments)
         self.words = command.common_words(arguments, "--force")
         self.sweep = Sweep(NAME, "Which builder and collider is the fastest?", 1, 0, False, "", [])

@@ -89,6 +89,7 @@ def test_refuses_before_it_measures() -> None:
             (2, ["soup:70", "--frames", "3:1"], "frames 3:1 are none"),
             (2, ["soup:70", "--for", "speed"], "speed"),
             (2, ["soup:70", "--for", "build", "--within", "1%"], "--within is for pairs"),
+            (2, ["soup:70", "--within", "1%", "--features"], "choose by --pairs-of between, of vertices and faces, or within, of edges"),
             (2, ["soup:70", "--for", "build", "--frames", "0:2"], "--frames is for pairs"),
             (2, ["soup:70", "--for", "build", "--colliders", "leaf"], "--colliders is for pairs"),
             (2, ["--frames", "0:2"], "none is named"),
@@ -97,6 +98,8 @@ def test_refuses_before_it_measures() -> None:
             (3, ["soup:70", "--out", "no/folder.json"], "there is no folder no"),
             (3, ["soup:70", "--device", "nosuch"], "nosuch")):
         expect(code, "best", *words, says=says)
+    expect(0, "best", "soup:70", "--builders", "karras", "--colliders", "leaf", "--within", "1%", "--features", "--pairs-of", "within",
+           "--out", "edges.json", says="--pairs-of within --within 1% --features\n")
     assert not pathlib.Path("best.json").exists()
     pathlib.Path("there.png").write_text("a text")
     expect(2, "best", "soup:70", "--out", "there.json", says="there.png is there already")
