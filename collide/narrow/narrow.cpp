@@ -30,6 +30,12 @@ constexpr std::size_t swept_groups_per_unit = 32;
 /// long, and those of the slowest kind, pairs a hair's breadth apart, 0.78 times (not kept).
 constexpr std::size_t filter_groups_per_unit = 6, exact_groups_per_unit = 2;
 
+/// True if a float that is a denormal is not taken for 0, which would be another coordinate.
+bool keeps_denormals(const Device& device)
+{
+    return (device.cl.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_DENORM) != 0;
+}
+
 }  // namespace
 
 bool has_doubles(const Device& device)
@@ -55,7 +61,8 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     : programs_(programs)
     , options_(options)
     , form_(chosen_form(programs.device(), options.form))
-    , has_doubles_(has_doubles(programs.device()) && !options.without_doubles)
+    , has_doubles_(has_doubles(programs.device()) && keeps_denormals(programs.device()) &&
+                   !options.without_doubles)
     , is_filter_(find_narrow_method(options.method).is_filter())
     , is_exact_(find_narrow_method(options.method).is_exact)
     , chunks_(chunk_count(programs.device()))
@@ -76,7 +83,9 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
         return;
     }
     if (method.real_bits == 64 && !has_doubles_)
-        throw Unavailable(std::string(method.name) + " needs doubles, which the device has not");
+        throw Unavailable(
+            std::string(method.name) +
+            " needs doubles, and floats that are denormals, and the device lacks one of them");
     filter_ = compiled_filter(method);
     if (is_filter_ && !is_exact_)
         rest_ = programs.kernel("collide/narrow/narrow_undecided.cl", "keep_undecided");

@@ -64,7 +64,7 @@ struct NarrowCounts {
 /// The number of candidates stays on the device. No contact is dropped silently: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
-    /// Throws BadUsage as check_narrow and check_narrow_of do, and Unavailable if the method needs doubles that the device lacks.
+    /// Throws BadUsage as check_narrow and check_narrow_of do, and Unavailable if the method needs doubles or denormals that the device lacks.
     NarrowPhase(Programs& programs, const NarrowOptions& options);
 
     /// Reserves memory for about as many contacts as triangles. Never timed. Throws Unavailable.
