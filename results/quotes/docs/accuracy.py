@@ -16,6 +16,11 @@ def narrow(doc: Document) -> None:
          *(f"{of[method][name]['missed_count']:,}/{of[method][name]['false_count']:,}" for method in METHODS[1:])]
         for name, own in of[METHODS[0]].items()
         if name in ("near_coplanar", "needles", "hairs_breadth", "same_place", "degenerate", "denormals")))
+    cells = File("h200/accuracy-narrow").cells
+    counted = [sum(cell.counters["false_count"] for cell in cells if cell.accuracy["method"] == name) for name in ("filter-f64", "filter-f32")]
+    doc.says("`filter-f64` has {} false pairs and `filter-f32` {} there", *counted)
+    doc.says("that `guigue-f64` misses overlaps by {} of", max(
+        cell.counters.get("missed_depth_most", 0) for cell in cells if cell.accuracy["method"] == "guigue-f64"))
 
 
 def axes_of_two_cores(doc: Document) -> None:
@@ -91,6 +96,18 @@ def distance(doc: Document) -> None:
         row(method) for method in dict.fromkeys(cell.accuracy["method"] for cell in files[0])))
 
 
+def place(doc: Document) -> None:
+    file = File("h200/accuracy-place")
+
+    def entry(scene: str) -> str:
+        exact, filters = (file.cell(scene, f"place, {method}") for method in ("exact", "filter-f64"))
+        left_open = exact.counters["narrow_exact_count"] / exact.counters["pairs_count"]
+        return f"{100 * left_open:.1f} %: {us(exact, 'narrow') / us(filters, 'narrow'):.2f}"
+
+    doc.table("place", "< sizes away | 2,000 triangles | 20,000 | 200,000", (
+        [away, *(entry(f"two-spheres:{count} at {away}") for count in (2000, 20000, 200000))] for away in ("0", "1e1", "1e3", "1e4", "1e5")))
+
+
 def quotes(doc: Document) -> None:
-    for part in (narrow, axes_of_two_cores, frames, queries, distance):
+    for part in (narrow, axes_of_two_cores, frames, queries, distance, place):
         part(doc)
