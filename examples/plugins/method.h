@@ -33,6 +33,7 @@ public:
     // As in plugin.h. A class overrides those that it has: the others become NULL.
     virtual void prepare(const bvhbench_mesh& mesh) = 0;
     virtual void load(const float* points) = 0;
+    virtual void load_step(const float*, const float*) {}
     virtual void build(bvhbench_stages&) {}
     virtual void refit(bvhbench_stages&) {}
     virtual void query(bvhbench_stages&) {}
@@ -90,6 +91,11 @@ bvhbench_method method(const char* name, const char* summary)
     made.load = [](void* state, const float* points) {
         return tried(state, [&](Method& m) { m.load(points); });
     };
+    made.load_step = if_overridden<decltype(&M::load_step), decltype(&Method::load_step),
+                                   decltype(bvhbench_method::load_step)>(
+        [](void* state, const float* start, const float* end) {
+            return tried(state, [&](Method& m) { m.load_step(start, end); });
+        });
     made.build = if_overridden<decltype(&M::build), decltype(&Method::build), Timed>(
         [](void* state, bvhbench_stages* stages) {
             return tried(state, [&](Method& m) { m.build(*stages); });
