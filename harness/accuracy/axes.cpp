@@ -5,7 +5,6 @@
 #include "geometry/names.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
-#include "harness/base/json_keys.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/frames.h"
 #include "scenes/face_order.h"
@@ -56,8 +55,7 @@ constexpr Axis catalog[] = {
      measure_queries},
     {"distance",
      "which narrow phase finds which triangles within a distance, what it takes, and how far off "
-     "its "
-     "distances are",
+     "its distances are",
      measure_distance},
 };
 

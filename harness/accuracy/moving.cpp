@@ -2,7 +2,6 @@
 //
 // The axis queries: single queries of continuous collision detection, by method, against exact times.
 #include <algorithm>
-#include <numeric>
 
 #include "collide/moving/impact_queries.h"
 #include "collide/oracles/swept_reference.h"

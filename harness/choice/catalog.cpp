@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "baselines/baselines.h"
-#include "collide/narrow/narrow_methods.h"
 #include "geometry/names.h"
 #include "oibvh/oibvh.h"
 

@@ -29,8 +29,8 @@ struct BuilderEntry {
     bool is_library = false;     ///< the work is done by a third-party library
     bool takes_formats = false;  ///< whether its tree can hold boxes in any of box_formats()
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
-    bool is_broken =
-        false;  ///< its plug-in, as far as can be told, does not start: `absent` says why
+    /// Its plug-in, as far as can be told, does not start: `absent` says why.
+    bool is_broken = false;
 
     /// True if it can be made.
     bool is_there() const { return make != nullptr || outside != nullptr; }
@@ -112,8 +112,8 @@ struct ColliderChoice : ColliderOptions {
     unsigned rules_forced = 0;    ///< rules used although the device does without them by default
     FrameUpdate update = FrameUpdate::automatic;
     TreeOver trees = TreeOver::object;
-    std::string within =
-        "none";  ///< how far apart pairs may be, as it was asked for (distance_words.h)
+    /// How far apart pairs may be, as it was asked for (distance_words.h).
+    std::string within = "none";
     /// The same in the scene's unit; nothing if pairs of boxes or contacts are asked for.
     std::optional<double> distance = std::nullopt;
 

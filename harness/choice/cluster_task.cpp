@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/cluster_task.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "builders/orders.h"

@@ -3,10 +3,7 @@
 
 #include <re2/re2.h>
 
-#include <algorithm>
-
 #include "geometry/names.h"
-#include "harness/base/json_keys.h"
 #include "harness/choice/experiment_lists.h"
 #include "scenes/catalog.h"
 

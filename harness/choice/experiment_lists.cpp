@@ -10,8 +10,8 @@
 namespace bvhbench {
 namespace {
 
-constexpr auto all_outside =
-    "outside";  ///< stands for all methods from outside, of which there may be none
+/// Stands for all methods from outside, of which there may be none.
+constexpr auto all_outside = "outside";
 constexpr std::int64_t most_triangles = std::int64_t{1} << 31, most_sizes = 1 << 24;
 
 /// Returns the numbers of a list, or those that an object describes: at least 1, sorted, without repetitions.

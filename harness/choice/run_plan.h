@@ -11,8 +11,8 @@ struct RunPlan {
     std::string name;
     std::vector<Experiment> parts;
     bool has_parts = false;  ///< each part is measured by a process of its own
-    std::vector<Json> impossible =
-        {};  ///< cells of the result that cannot be measured, each with its reason
+    /// Cells of the result that cannot be measured, each with its reason.
+    std::vector<Json> impossible = {};
 };
 
 /// Returns the embedded experiment of that name as a plan, or reads the file if `name_or_path` ends in .json. Throws BadUsage with

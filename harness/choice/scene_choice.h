@@ -61,8 +61,8 @@ struct CollideTask : SceneChoice {
     int samples = 20;
     int warm_up = 3;
     SamplingRules sampling = {};
-    std::optional<NodeCosts> quality =
-        {};                    ///< of the trees that are queried; nothing: not computed
+    /// Of the trees that are queried; nothing: not computed.
+    std::optional<NodeCosts> quality = {};
     bool wants_lists = false;  ///< what is found is listed, even if it is known to be right
     Note note = {};            ///< told before and during work that takes long; may be empty
 };

@@ -204,9 +204,8 @@ extern const CommandEntry cluster_command = {
     measuring,
     "Find the pairs of one scene on several devices, by MPI, and compare them with those of one",
     "Each rank has a part of the scene and builds a tree over it. Triangles that meet another "
-    "rank's "
-    "boxes are sent there, so that every pair is found once. Under mpirun or Slurm the ranks are "
-    "theirs; otherwise mpirun is started on this host.",
+    "rank's boxes are sent there, so that every pair is found once. Under mpirun or Slurm the "
+    "ranks are theirs; otherwise mpirun is started on this host.",
     {{"bvhbench cluster torus:2880000 --ranks 4", "four devices of this host"},
      {"bvhbench cluster bunny --ranks 2 --share-devices --partition curve --pairs pairs.csv",
       "a test on one device"}},

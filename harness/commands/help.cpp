@@ -124,8 +124,8 @@ std::string footer_of_program()
         {"bvhbench reproduce table1 --quick", "a table of the paper"},
         {"bvhbench build --builder oibvh-multi --scene torus:100000", "one tree, stage by stage"},
     };
-    return "Common options may stand before or behind the command. `bvhbench help COMMAND` has "
-           "its own.\n\n" +
+    return "Common options may stand before or behind the command. `bvhbench help COMMAND` has its "
+           "own.\n\n" +
            examples_text(examples) + '\n' + std::string(exit_codes) +
            section("Environment", environment) + section("Files", files) +
            "\nSee also: docs/getting-started.md, docs/faq.md, docs/README.md";

@@ -144,9 +144,8 @@ extern const CommandEntry scene_command = {
     knowing,
     "What reading a scene finds: its triangles, what they share, and what will surprise",
     "Measures nothing and needs no device. Of a folder, facts are those of its first frame. Pairs "
-    "are "
-    "estimated from 1,024 triangles. Exit code 3 if one of the scenes cannot be read; the others "
-    "are.",
+    "are estimated from 1,024 triangles. Exit code 3 if one of the scenes cannot be read; the "
+    "others are.",
     {{"bvhbench scene part.stl", "one file"},
      {"bvhbench scene meshes/*.obj --json facts.json", "several, and the facts as JSON"}},
     "scenes/README.md",

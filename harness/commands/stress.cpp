@@ -4,7 +4,6 @@
 #include "harness/choice/outside.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
-#include "harness/measure/run.h"
 #include "harness/record/provenance.h"
 #include "harness/record/result_file.h"
 #include "harness/stress/run.h"

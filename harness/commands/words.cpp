@@ -83,10 +83,9 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_option("--tuning", common.tuning,
                    "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, "
                    "else those in the program");
-    app.add_option(
-           "--plugin", common.plugins,
-           "a shared library with builders and colliders (docs/plugins.md); may be said again; "
-           "besides those in BVHBENCH_PLUGINS")
+    app.add_option("--plugin", common.plugins,
+                   "a shared library with builders and colliders (docs/plugins.md); may be said "
+                   "again; besides those in BVHBENCH_PLUGINS")
         ->allow_extra_args(false);
     app.add_option("--program", common.programs,
                    "a program with builders and colliders (docs/plugins.md); may be said again")

@@ -30,8 +30,8 @@ public:
 private:
     Session& session_;
     const Input& input_;
-    std::map<std::array<std::string, 3>, std::shared_future<std::uint64_t>>
-        hashes_;  ///< by builder, order, boxes
+    /// By builder, order, boxes.
+    std::map<std::array<std::string, 3>, std::shared_future<std::uint64_t>> hashes_;
 };
 
 /// Returns the tree that the session's builder leaves over the input as one object. It is valid until that builder builds again.

@@ -13,8 +13,8 @@ namespace bvhbench {
 /// Facts of the right list of pairs or contacts of a frame.
 struct AnswerFacts {
     PairFacts set;
-    std::uint64_t file_hash =
-        0;  ///< PairList::hash() of the list, with triangles numbered as in the scene's file
+    /// PairList::hash() of the list, with triangles numbered as in the scene's file.
+    std::uint64_t file_hash = 0;
     std::uint64_t touching = 0;  ///< of a list of contacts: those that only touch
 
     bool operator==(const AnswerFacts&) const = default;

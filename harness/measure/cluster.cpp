@@ -51,8 +51,7 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
     if (!share_devices && devices.size() < ranks.local_count())
         throw Unavailable(
             std::to_string(ranks.local_count()) + " ranks on " + ranks.host() +
-            " need a device "
-            "each, and " +
+            " need a device each, and " +
             (devices.size() == 1 ? "one matches" : std::to_string(devices.size()) + " match") +
             "; with --share-devices they share, which is for tests and gives no times");
     return std::to_string(devices[ranks.local_rank() % devices.size()]);

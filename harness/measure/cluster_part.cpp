@@ -6,7 +6,6 @@
 
 #include "cluster/rebalance.h"
 #include "geometry/host_memory.h"
-#include "harness/base/test_hooks.h"
 #include "harness/choice/distance_words.h"
 #include "harness/measure/engine.h"
 #include "scenes/catalog.h"

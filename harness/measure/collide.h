@@ -21,10 +21,10 @@ namespace bvhbench {
 struct Found {
     const Scene* scene = nullptr;  ///< valid only during the call
     PairList pairs = {}, contacts = {};
-    std::vector<float> times =
-        {};  ///< of contacts between two frames: a time before which each does not touch
-    std::span<const Face> features =
-        {};  ///< vertices and faces, or edges, by which pairs are numbered; empty: triangles
+    /// Of contacts between two frames: a time before which each does not touch.
+    std::vector<float> times = {};
+    /// Vertices and faces, or edges, by which pairs are numbered; empty: triangles.
+    std::span<const Face> features = {};
 };
 
 /// Returns the task's scene, with its objects split as chosen and the frames in between added. Throws what loading it throws.

@@ -79,8 +79,8 @@ private:
     bool has_later_frames_;
     std::map<std::string, double> least_;  ///< nanoseconds of each stage under its key
     double best_ns_ = 0;                   ///< of the first samples; 0: none yet
-    std::vector<double>
-        sums_;  ///< of each cell over the frames; NaN if one is missing or tells nothing
+    /// Of each cell over the frames; NaN if one is missing or tells nothing.
+    std::vector<double> sums_;
 };
 
 }  // namespace bvhbench

@@ -6,11 +6,7 @@
 #include "harness/judge/pair_counts.h"
 
 namespace bvhbench {
-namespace {
-
 constexpr std::size_t sample_size = 10'000;
-
-}  // namespace
 
 PairFacts facts_on_device(Session& session, Pipeline& pipeline)
 {

@@ -2,7 +2,6 @@
 #include "harness/measure/engine.h"
 
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 
 #include "harness/base/failure.h"

@@ -45,8 +45,8 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
         throw BadUsage("with swept boxes 'trees' is object: vertices and faces get a tree each");
     if (asked.among == Among::within_objects)
         throw BadUsage(
-            "one tree over the scene finds pairs of all objects: for pairs within "
-            "objects 'trees' is object");
+            "one tree over the scene finds pairs of all objects: for pairs within objects 'trees' "
+            "is object");
     if (!asked.filter.is_empty())
         throw BadUsage(
             "one tree over the scene does not tell its objects apart: with 'exclude' 'trees' is "
@@ -60,9 +60,8 @@ OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& inp
             "'trees' is object");
     if (!asked.keep_adjacent && share_vertices(input))
         throw BadUsage(
-            "objects of this scene share vertices, and one tree over the scene cannot "
-            "drop pairs of two objects that share one: 'trees' is object, or 'adjacent' "
-            "keep");
+            "objects of this scene share vertices, and one tree over the scene cannot drop pairs "
+            "of two objects that share one: 'trees' is object, or 'adjacent' keep");
     question_.among = Among::all;
     question_.keep_adjacent = false;
     owners_ = owners_of(input);

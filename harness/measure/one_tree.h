@@ -46,8 +46,8 @@ private:
     }
 
     ColliderChoice question_;
-    std::vector<Face>
-        owners_;  ///< the number of each triangle's object, three times; empty if all pairs are wanted
+    /// The number of each triangle's object, three times; empty if all pairs are wanted.
+    std::vector<Face> owners_;
     Input built_, queried_;
 };
 

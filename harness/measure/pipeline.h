@@ -121,8 +121,8 @@ private:
     double tests_of_new_ = 0;  ///< of the last frame without worn trees
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
-    std::optional<WithinPhase>
-        within_;  ///< if pairs within a distance are asked for, in place of narrow_
+    /// If pairs within a distance are asked for, in place of narrow_.
+    std::optional<WithinPhase> within_;
     std::optional<NearTriangles> near_;         ///< if the rule `near` may apply
     std::optional<Entering> entering_;          ///< if the rule applies; else all triangles enter
     std::optional<MarginPairs> margin_;         ///< if the rule `margin` may apply

@@ -8,11 +8,7 @@
 #include "harness/measure/pipeline.h"
 
 namespace bvhbench {
-namespace {
-
 constexpr std::int64_t most_copying_ns = 200'000'000;  ///< after which a copy is not timed again
-
-}  // namespace
 
 void Pipeline::upload(const Input& input) const
 {

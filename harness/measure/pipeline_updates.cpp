@@ -9,12 +9,8 @@
 #include "harness/measure/pipeline.h"
 
 namespace bvhbench {
-namespace {
-
 /// Box tests, over those with new trees, up to which the rule `deforming` refits. A refit takes less than half of a build.
 constexpr double most_more_tests = 1.15;
-
-}  // namespace
 
 void Pipeline::begin_frame(std::span<const Motion> motions)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/run.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <utility>

@@ -17,8 +17,8 @@ namespace bvhbench {
 struct ClusterRank {
     std::string host, device;
     std::uint64_t triangles = 0;
-    std::uint64_t predicted_bytes =
-        0;  ///< of the device, by a trial with some of the triangles; 0: no trial
+    /// Of the device, by a trial with some of the triangles; 0: no trial.
+    std::uint64_t predicted_bytes = 0;
     std::uint64_t device_bytes = 0;  ///< most that were taken at a time
     std::uint64_t host_bytes = 0;    ///< most that the process had
     std::vector<RankFrame> frames;   ///< timed ones; at least one
@@ -29,8 +29,8 @@ struct ClusterFrame {
     std::size_t frame = 0;
     PairFacts pairs;
     std::optional<PairFacts> contacts;
-    double imbalance =
-        1;  ///< of work, triangles and pairs: the most of a rank, divided by the mean
+    /// Of work, triangles and pairs: the most of a rank, divided by the mean.
+    double imbalance = 1;
     std::uint64_t moved_triangles = 0;  ///< to other ranks, after the frame
     std::int64_t rebalance_ns = 0;  ///< host clock: cutting and moving; 0 if the partition was kept
 };

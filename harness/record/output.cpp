@@ -232,8 +232,8 @@ void Output::Writer::finish()
         if (const int folder =
                 open(folder_of(output_.target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
             folder >= 0) {
-            fsync(
-                folder);  // not all file systems can sync a folder; the file is renamed in any case
+            // Not all file systems can sync a folder; the file is renamed in any case.
+            fsync(folder);
             close(folder);
         }
         temporary_.clear();

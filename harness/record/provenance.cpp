@@ -10,7 +10,6 @@
 #include <fstream>
 #include <map>
 #include <random>
-#include <thread>
 
 #include "geometry/hash.h"
 #include "harness/base/build_info.h"

@@ -77,8 +77,8 @@ struct SceneFacts {
 /// Query for pairs of features in place of triangles.
 struct FeatureFacts {
     std::string pairs;  ///< vertex-face or edge-edge; empty: pairs are of triangles
-    std::int64_t to_frame =
-        0;  ///< to which boxes are swept from SceneFacts::frame; 0: they are not
+    /// To which boxes are swept from SceneFacts::frame; 0: they are not.
+    std::int64_t to_frame = 0;
     std::int64_t primitives = 0;  ///< number of vertices and faces, or of edges
 };
 

@@ -60,10 +60,9 @@ ResultFile::ResultFile(Output output, bool force, const Resuming& resuming,
     if (std::filesystem::exists(path)) {
         const bool is_read = resuming_.is_asked || !resumed_run.empty();
         if (!is_read && !force)
-            throw BadUsage(
-                path.string() +
-                " has cells of a run that did not end: `run --resume` goes on with those "
-                "of a plan, --force begins anew");
+            throw BadUsage(path.string() +
+                           " has cells of a run that did not end: `run --resume` goes on with "
+                           "those of a plan, --force begins anew");
         if (is_read && add_journal(path, earlier_))
             is_written_ = false;
         else

@@ -31,8 +31,8 @@ OutputRules result_rules(bool force, std::vector<std::string> inputs, bool resum
 struct EndOfRun {
     std::int64_t compile_ns = 0;
     std::vector<std::string> turns_with = {};  ///< ids of the runs that this run took turns with
-    std::optional<double> other_processes =
-        {};  ///< mean number of them that wanted to run between samples
+    /// Mean number of them that wanted to run between samples.
+    std::optional<double> other_processes = {};
 };
 
 /// A result file. While its run goes on, its cells are in a journal beside it (journal.h); the file is written when the run ends, also

@@ -2,7 +2,6 @@
 #include "harness/session/race.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/choice/catalog.h"
 #include "harness/session/sampler.h"

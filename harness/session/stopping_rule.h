@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "harness/choice/sampling.h"
-#include "harness/record/record.h"
 #include "harness/session/sampler.h"
 
 namespace bvhbench {

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <vector>
@@ -18,7 +17,6 @@
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/sampling.h"
-#include "harness/record/output.h"
 
 namespace bvhbench {
 
