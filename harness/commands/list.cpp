@@ -112,19 +112,20 @@ Table devices(const CommonOptions&)
     const std::size_t count = device_names().size();
     if (count == 0)
         throw Unavailable("there is no OpenCL device");
-    const auto bytes = [](std::int64_t value) { return bytes_text(static_cast<double>(value)); };
     Table table = blank_table(11);
     for (std::size_t i = 0; i < count; ++i) {
-        const DeviceFacts facts = device_facts(open_device(std::to_string(i)));
-        table.row({facts.platform + '/' + facts.name, "index " + std::to_string(i), facts.kind,
-                   "driver " + facts.driver, facts.opencl_c,
-                   std::to_string(facts.compute_units) + " units", bytes(facts.global_memory_bytes),
-                   bytes(facts.local_memory_bytes) + " local",
-                   "groups to " + std::to_string(facts.max_group_size),
-                   duration_text(static_cast<double>(facts.timer_resolution_ns)) + " timer",
-                   std::string(facts.correctly_rounded_division ? "exact division"
-                                                                : "division to 2.5 ulp") +
-                       (facts.device_scope_acq_rel_atomics ? ", acq_rel atomics" : "")});
+        const Json facts = device_facts(open_device(std::to_string(i)));
+        const auto text = [&](const char* key) { return facts[key].get<std::string>(); };
+        const auto bytes = [&](const char* key) { return bytes_text(facts[key].get<double>()); };
+        table.row(
+            {text("platform") + '/' + text("name"), "index " + std::to_string(i), text("kind"),
+             "driver " + text("driver"), text("opencl_c"), facts["compute_units"].dump() + " units",
+             bytes("global_memory_bytes"), bytes("local_memory_bytes") + " local",
+             "groups to " + facts["max_group_size"].dump(),
+             duration_text(facts["timer_resolution_ns"].get<double>()) + " timer",
+             std::string(facts["correctly_rounded_division"].get<bool>() ? "exact division"
+                                                                         : "division to 2.5 ulp") +
+                 (facts["device_scope_acq_rel_atomics"].get<bool>() ? ", acq_rel atomics" : "")});
     }
     return table;
 }

@@ -118,7 +118,7 @@ public:
                               "', and the device is '" + device.name() + "'");
         file.device = device.name();
         file.kind = kind_of(device);
-        file.driver = device_facts(device).driver;
+        file.driver = text_at(device_facts(device), "driver");
         tune_all(session, output, file);
         std::cout << "written: " << path.string() << '\n';
         return 0;

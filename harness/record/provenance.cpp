@@ -17,10 +17,6 @@
 
 namespace bvhbench {
 
-BVHBENCH_TO_JSON(DeviceFacts, name, platform, driver, opencl, opencl_c, kind, compute_units,
-                 global_memory_bytes, max_allocation_bytes, local_memory_bytes, max_group_size,
-                 timer_resolution_ns, correctly_rounded_division, device_scope_acq_rel_atomics)
-
 namespace {
 
 /// Returns the processor's name from /proc/cpuinfo; empty if there is none.
@@ -93,27 +89,24 @@ std::string run_id(const std::string& host)
 
 std::string utc_now() { return now_as("%Y-%m-%dT%H:%M:%SZ"); }
 
-DeviceFacts device_facts(const Device& device)
+Json device_facts(const Device& device)
 {
     const cl::Device& cl = device.cl;
-    const auto whole = [](auto value) { return static_cast<std::int64_t>(value); };
-    return {
-        .name = device.name(),
-        .platform = device.platform(),
-        .driver = cl.getInfo<CL_DRIVER_VERSION>(),
-        .opencl = trimmed(cl.getInfo<CL_DEVICE_VERSION>()),
-        .opencl_c = trimmed(cl.getInfo<CL_DEVICE_OPENCL_C_VERSION>()),
-        .kind = kind_of(cl),
-        .compute_units = whole(cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()),
-        .global_memory_bytes = whole(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>()),
-        .max_allocation_bytes = whole(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()),
-        .local_memory_bytes = whole(cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>()),
-        .max_group_size = whole(cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()),
-        .timer_resolution_ns = whole(cl.getInfo<CL_DEVICE_PROFILING_TIMER_RESOLUTION>()),
-        .correctly_rounded_division =
-            (cl.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0,
-        .device_scope_acq_rel_atomics = has_device_scope_acq_rel(cl),
-    };
+    return {{"name", device.name()},
+            {"platform", device.platform()},
+            {"driver", cl.getInfo<CL_DRIVER_VERSION>()},
+            {"opencl", trimmed(cl.getInfo<CL_DEVICE_VERSION>())},
+            {"opencl_c", trimmed(cl.getInfo<CL_DEVICE_OPENCL_C_VERSION>())},
+            {"kind", kind_of(cl)},
+            {"compute_units", cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()},
+            {"global_memory_bytes", cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>()},
+            {"max_allocation_bytes", cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()},
+            {"local_memory_bytes", cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>()},
+            {"max_group_size", cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()},
+            {"timer_resolution_ns", cl.getInfo<CL_DEVICE_PROFILING_TIMER_RESOLUTION>()},
+            {"correctly_rounded_division",
+             (cl.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0},
+            {"device_scope_acq_rel_atomics", has_device_scope_acq_rel(cl)}};
 }
 
 Json run_facts(const Device& device, std::vector<std::string> command, const NodeCosts& costs)

@@ -12,21 +12,8 @@
 
 namespace bvhbench {
 
-struct DeviceFacts {
-    std::string name, platform, driver, opencl, opencl_c;
-    std::string kind;  ///< cpu, gpu or other
-    std::int64_t compute_units = 0;
-    std::int64_t global_memory_bytes = 0;
-    std::int64_t max_allocation_bytes = 0;
-    std::int64_t local_memory_bytes = 0;
-    std::int64_t max_group_size = 0;
-    std::int64_t timer_resolution_ns = 0;
-    bool correctly_rounded_division = false;
-    bool device_scope_acq_rel_atomics = false;
-};
-
-/// Queries the facts of a device.
-DeviceFacts device_facts(const Device& device);
+/// Returns what the program depends on or reports of a device: `kind` is cpu, gpu or other.
+Json device_facts(const Device& device);
 
 /// Returns what a result file has under `run` (results/schema/result-1.schema.json) when the run starts: machine, program and
 /// settings. `command` is argv, `costs` those in the counters sah_cost and epo.
