@@ -35,9 +35,9 @@ std::string one_line(const Json& json);
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where);
 std::string text_at(const Json& json, const char* key);
-std::string text_in(const Json& json, const char* key,
-                    const std::string& usual = {});  ///< `usual` if the key is missing
-bool is_true(const Json& json, const char* key);     ///< false if the key is missing
+/// `usual` if the key is missing.
+std::string text_in(const Json& json, const char* key, const std::string& usual = {});
+bool is_true(const Json& json, const char* key);  ///< false if the key is missing
 
 /// Returns the number. An integral `Number` must be a whole one. `what` names it in the sentence.
 template <class Number>

@@ -21,9 +21,8 @@ namespace {
 
 std::filesystem::path commands_script()
 {
-    const char* variable = std::getenv("BVHBENCH_HOME");
-    const std::filesystem::path home =
-        variable != nullptr && *variable != '\0' ? variable : build_info.source_root;
+    const std::string named = environment("BVHBENCH_HOME");
+    const std::filesystem::path home = named.empty() ? build_info.source_root : named;
     const std::filesystem::path path = home / "plots" / "__main__.py";
     if (!std::filesystem::exists(path))
         throw Unavailable(path.string() +

@@ -74,8 +74,7 @@ std::string Table::text(std::size_t width) const
         }
         out += text + '\n';
     };
-    if (std::any_of(columns_.begin(), columns_.end(),
-                    [](const Column& c) { return !c.title.empty(); }))
+    if (!std::ranges::all_of(columns_, &std::string::empty, &Column::title))
         line([&](std::size_t i) { return columns_[i].title; });
     for (const auto& row : rows_)
         line([&](std::size_t i) { return i < row.size() ? row[i] : std::string(); });

@@ -9,17 +9,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 namespace bvhbench {
 namespace {
 
-struct Letter {
-    std::size_t size;
-    char32_t code;
-};
-
-/// Returns the first character of a text in UTF-8. A byte that begins none stands for itself.
-Letter first_letter(std::string_view text)
+/// Returns the bytes and the code of the first character of a text in UTF-8. A byte that begins none stands for itself.
+std::pair<std::size_t, char32_t> first_letter(std::string_view text)
 {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const auto size = static_cast<std::size_t>(std::countl_one(byte(0)));
