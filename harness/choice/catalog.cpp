@@ -31,7 +31,7 @@ constexpr BuilderEntry in_any_format(std::string_view name, std::string_view sum
 }
 
 // To add a builder, add its line here. There is no other registration.
-constexpr BuilderEntry builders[] = {
+constexpr BuilderEntry own_builders[] = {
     in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree,
                   make_perfect),
     in_any_format("karras", "radix tree, topology from all nodes at once, then boxes", radix_tree,
@@ -97,7 +97,7 @@ constexpr ColliderEntry filtering(std::string_view name, std::string_view summar
 }
 
 // To add a collider, add its line here. There is no other registration.
-constexpr ColliderEntry colliders[] = {
+constexpr ColliderEntry own_colliders[] = {
     {.name = "leaf",
      .summary = "each leaf against the tree, without a stack: by arithmetic, or by ropes",
      .make = make_leaf,
@@ -145,10 +145,8 @@ constexpr ColliderEntry colliders[] = {
 
 /// What plug-ins add. It is filled once, before the catalogs are used.
 struct Outside {
-    std::vector<BuilderEntry> builders{std::begin(bvhbench::builders),
-                                       std::end(bvhbench::builders)};
-    std::vector<ColliderEntry> colliders{std::begin(bvhbench::colliders),
-                                         std::end(bvhbench::colliders)};
+    std::vector<BuilderEntry> builders{std::begin(own_builders), std::end(own_builders)};
+    std::vector<ColliderEntry> colliders{std::begin(own_colliders), std::end(own_colliders)};
     // Lists, so that the entries' texts keep their addresses.
     std::list<outside::Library> libraries;
     std::list<outside::Offer> offers;

@@ -119,10 +119,12 @@ struct ColliderChoice : ColliderOptions {
 
     bool operator==(const ColliderChoice&) const = default;
 
+    bool is_within() const { return within != "none"; }
+
     /// What the narrow phase decides, of swept boxes or others.
     NarrowOf question(bool swept) const
     {
-        return swept ? NarrowOf::step : within == "none" ? NarrowOf::moment : NarrowOf::distance;
+        return swept ? NarrowOf::step : is_within() ? NarrowOf::distance : NarrowOf::moment;
     }
 };
 

@@ -301,7 +301,7 @@ void check_choice(const CellChoice& choice)
         throw BadUsage(
             "the first contact is exact: beside 'first' 'narrow' is none or exact, not '" + narrow +
             "'");
-    if (choice.collider.within != "none" && choice.collider.first)
+    if (choice.collider.is_within() && choice.collider.first)
         throw BadUsage("'first' ends at a contact, and 'within' is about all pairs: choose one");
     if (const unsigned both = choice.collider.rules_off & choice.collider.rules_forced; both != 0)
         throw BadUsage("a rule is switched off by 'no_skip' or forced by 'force_skip', not both: " +

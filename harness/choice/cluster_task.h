@@ -47,7 +47,7 @@ struct ClusterTask {
     std::vector<std::string> words = {};
 
     bool moves() const { return frames != FrameRange{}; }
-    bool is_within() const { return pipeline.collider.within != "none"; }
+    bool is_within() const { return pipeline.collider.is_within(); }
     bool has_narrow() const { return is_within() || pipeline.collider.narrow != "none"; }
 };
 

@@ -44,10 +44,7 @@ struct Experiment {
     int warm_up = 3;
     SamplingRules sampling;
 
-    bool has(Operation operation) const
-    {
-        return std::find(operations.begin(), operations.end(), operation) != operations.end();
-    }
+    bool has(Operation operation) const { return std::ranges::count(operations, operation) > 0; }
 };
 
 /// Reads an experiment. Throws BadUsage, naming the key, for unknown keys and invalid values.

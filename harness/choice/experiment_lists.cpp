@@ -91,12 +91,9 @@ std::vector<PipelineChoice> pipelines_of(const Json& json)
                         "a pipeline");
     if (!json.contains("collider"))
         throw BadUsage("a pipeline needs 'collider'");
-    std::vector<BuilderChoice> builders;
+    std::vector<BuilderChoice> builders = {{.name = "none"}};
     if (json.contains("builder"))
-        read_each(json, "builder", builder_catalog(),
-                  [&](const Json& item) { builders.push_back(builder_choice(item)); });
-    else
-        builders.push_back({.name = "none"});
+        builders = builder_choices(json, "builder");
     std::vector<PipelineChoice> choices;
     for (const BuilderChoice& builder : builders)
         read_each(json, "collider", collider_catalog(),
@@ -151,20 +148,16 @@ std::vector<std::string> scene_names(const Json& json)
     return names;
 }
 
-BuilderChoice builder_choice(const Json& json)
-{
-    CellChoice choice;
-    read_named(json, Choice::Of::builder, "a builder", choice, choice.builder.name);
-    find_builder(choice.builder.name);
-    check_choice(choice);
-    return choice.builder;
-}
-
-std::vector<BuilderChoice> builder_choices(const Json& json)
+std::vector<BuilderChoice> builder_choices(const Json& json, const char* key)
 {
     std::vector<BuilderChoice> choices;
-    read_each(json, "builders", builder_catalog(),
-              [&](const Json& item) { choices.push_back(builder_choice(item)); });
+    read_each(json, key, builder_catalog(), [&](const Json& item) {
+        CellChoice choice;
+        read_named(item, Choice::Of::builder, "a builder", choice, choice.builder.name);
+        find_builder(choice.builder.name);
+        check_choice(choice);
+        choices.push_back(choice.builder);
+    });
     return choices;
 }
 

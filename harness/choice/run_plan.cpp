@@ -9,10 +9,8 @@ namespace {
 RunPlan plan_of(const Json& json, bool quick)
 {
     if (!json.is_object() || !json.contains("parts")) {
-        RunPlan plan;
-        plan.parts = {experiment_of(json, quick)};
-        plan.name = plan.parts.front().name;
-        return plan;
+        const Experiment only = experiment_of(json, quick);
+        return {.name = only.name, .parts = {only}};
     }
     refuse_unknown_keys(json, {"experiment", "question", "parts", "impossible"}, "a plan");
     RunPlan plan{.name = text_at(json, "experiment"), .has_parts = true};

@@ -23,11 +23,10 @@ std::vector<PipelineChoice> with_each_rule_off(const std::vector<PipelineChoice>
             if (!entry.applies_to(collider.name) || (collider.rules_off & entry.rule) != 0)
                 continue;
             ++rules;
-            without_any.rules_forced &= ~entry.rule;
-            without_any.rules_off |= entry.rule;
-            all.push_back(pipeline);
-            all.back().collider.rules_forced &= ~entry.rule;
-            all.back().collider.rules_off |= entry.rule;
+            for (ColliderChoice* one : {&without_any, &all.emplace_back(pipeline).collider}) {
+                one->rules_forced &= ~entry.rule;
+                one->rules_off |= entry.rule;
+            }
             const bool on_device = find_collider(collider.name).needs_tree;
             if (on_device && std::max(entry.on_cpu_from, entry.on_gpu_from) != always &&
                 (collider.rules_forced & entry.rule) == 0) {
@@ -77,14 +76,13 @@ void check_features(const CollideTask& task)
                        ", objects are the scene's vertices, faces and edges, and 'exclude' is "
                        "about those of the scene");
     for (const PipelineChoice& pipeline : task.pipelines) {
-        const bool is_within = pipeline.collider.within != "none";
         if (pipeline.collider.first)
             throw BadUsage("'first' is about triangles, and " + what +
                            " pairs are of vertices, faces and edges");
-        if (task.swept && is_within)
+        if (task.swept && pipeline.collider.is_within())
             throw BadUsage(
                 "'within' is about one moment, and swept boxes are not: there are 'features'");
-        if (task.features && !is_within)
+        if (task.features && !pipeline.collider.is_within())
             throw BadUsage("'features' are pairs at most a distance apart: they need 'within'");
         if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
             find_order(pipeline.builder.order).medians != Medians::nowhere)

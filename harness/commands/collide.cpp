@@ -32,9 +32,9 @@ public:
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
         names_.add_orders(app);
         add_choices(app, choice_, [](const Choice& option) {
+            // --group-size sets the collider's
             return option.of != Choice::Of::builder ||
-                   (option.key != "order" &&
-                    option.key != "group_size");  // --group-size sets the collider's
+                   (option.key != "order" && option.key != "group_size");
         });
         adjacent_ = app.get_option("--adjacent");
         app.add_flag("--skips", skips_,
@@ -62,9 +62,9 @@ public:
                            watchdog::run_id());
         PairsFile pairs_file(pairs, task.has_features());
         PairsFile contacts_file(contacts, task.has_features(),
-                                task.swept                          ? PairsFile::With::times
-                                : choice_.collider.within != "none" ? PairsFile::With::distances
-                                                                    : PairsFile::With::nothing);
+                                task.swept                     ? PairsFile::With::times
+                                : choice_.collider.is_within() ? PairsFile::With::distances
+                                                               : PairsFile::With::nothing);
         watchdog::resume_after_crash(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.end_of_run());
@@ -89,7 +89,7 @@ private:
                         "--pairs and --contacts write those of one scene, and there are " +
                         std::to_string(scenes_.size()));
             }
-        const bool is_within = choice_.collider.within != "none";
+        const bool is_within = choice_.collider.is_within();
         if (!pairs_.empty() && is_within)
             throw BadUsage(
                 "--within finds pairs of triangles and none of boxes: --contacts, not --pairs");
@@ -109,7 +109,7 @@ private:
     {
         if (containment_ &&
             (choice_.scene.has_features() || !choice_.scene.exclude.empty() ||
-             choice_.collider.first || choice_.collider.within != "none" ||
+             choice_.collider.first || choice_.collider.is_within() ||
              choice_.collider.narrow != "exact" || choice_.collider.among == Among::within_objects))
             throw BadUsage(
                 "--containment needs all exact contacts between objects: --narrow exact, without "
