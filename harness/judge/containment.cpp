@@ -133,7 +133,7 @@ Containment containment(const Scene& scene, std::size_t frame, std::span<const P
         for (std::size_t inner = 0; inner < boxes.size(); ++inner)
             if (inner != outer && contains(boxes[outer], boxes[inner]) &&
                 !touching.contains(std::minmax(inner, outer)) && now.is_inside(inner, outer))
-                containment.found.push_back({inner, outer});
+                containment.found.emplace_back(inner, outer);
     }
     return containment;
 }

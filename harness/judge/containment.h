@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "collide/pairs.h"
@@ -9,15 +10,9 @@
 
 namespace bvhbench {
 
-/// An object that lies wholly inside another one, by their indices in the scene.
-struct Contained {
-    std::size_t object = 0, inside_of = 0;
-    bool operator==(const Contained&) const = default;
-};
-
 /// Objects of a frame that lie inside others, and how many objects nothing can be inside of, because they are not closed.
 struct Containment {
-    std::vector<Contained> found;
+    std::vector<std::pair<std::size_t, std::size_t>> found;  ///< an object, and the one around it
     std::size_t open_objects = 0;
 };
 
