@@ -73,11 +73,9 @@ bool tells(const Cell& cell)
 
 bool Contest::can_judge(const ColliderChoice& collider) const
 {
-    const bool keeps =
-        has_later_frames_ &&
-        (collider.update == FrameUpdate::refit ||
-         (collider.update == FrameUpdate::automatic && find_collider(collider.name).refits));
-    return !keeps;
+    return !has_later_frames_ ||
+           !(collider.update == FrameUpdate::refit ||
+             (collider.update == FrameUpdate::automatic && find_collider(collider.name).refits));
 }
 
 double bytes_held(const Cell& cell)

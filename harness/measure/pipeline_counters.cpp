@@ -74,30 +74,27 @@ std::map<std::string, double> Pipeline::counters() const
         const bool has_some = objects > 0 && queries();
         return !entering_ ? objects : has_some ? entering_->input.objects.size() : 0;
     };
-    std::size_t memory = collider_->reserved().total() + (one_tree_ ? one_tree_->bytes() : 0);
-    put("query_bytes", memory);
+    std::size_t memory = 0;
+    const auto put_bytes = [&](const char* name, std::size_t bytes) {
+        put(name, bytes);
+        memory += bytes;
+    };
+    put_bytes("query_bytes", collider_->reserved().total() + (one_tree_ ? one_tree_->bytes() : 0));
     if (builder_ != nullptr) {
         const Footprint tree = builder_->reserved();
-        const std::size_t uploaded = uploaded_.reserved().total();
-        put("tree_bytes", tree.tree_bytes + uploaded);
-        put("scratch_bytes", tree.scratch_bytes);
+        put_bytes("tree_bytes", tree.tree_bytes + uploaded_.reserved().total());
+        put_bytes("scratch_bytes", tree.scratch_bytes);
         put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
         put("refitted_objects_count", updated(TreeUpdate::refit));
         put("kept_objects_count", updated(TreeUpdate::keep));
         put("sorts_count", updated(TreeUpdate::rebuild) > 0 ? 1 : 0);
-        memory += tree.total() + uploaded;
     }
     if (entering_)
         put("entered_count", entering_->input.triangle_count());
-    if (near_) {
-        put("near_bytes", near_->reserved().total());
-        memory += near_->reserved().total();
-    }
-    if (margin_) {
-        const std::size_t bytes = margin_->bytes() + (standing_ ? standing_->bytes() : 0);
-        put("margin_bytes", bytes);
-        memory += bytes;
-    }
+    if (near_)
+        put_bytes("near_bytes", near_->reserved().total());
+    if (margin_)
+        put_bytes("margin_bytes", margin_->bytes() + (standing_ ? standing_->bytes() : 0));
     if (narrow_) {
         const NarrowCounts narrow = queries() ? narrow_->counts(queue) : NarrowCounts{};
         if (!is_plain())
@@ -108,15 +105,13 @@ std::map<std::string, double> Pipeline::counters() const
         put("narrow_exact_count", narrow.exactly);
         if (narrow_->is_swept() && narrow.contacts > 0)
             put("earliest_impact", std::ranges::min(narrow_->impact_times(queue)));
-        put("narrow_bytes", narrow_->reserved().total());
-        memory += narrow_->reserved().total();
+        put_bytes("narrow_bytes", narrow_->reserved().total());
     }
     if (within_) {
         const WithinCounts within = within_->counts(queue);
         put("contacts_count", within.within);
         put("narrow_exact_count", within.exactly);
-        put("narrow_bytes", within_->reserved().total());
-        memory += within_->reserved().total();
+        put_bytes("narrow_bytes", within_->reserved().total());
     }
     put("memory_bytes", memory);
     return counters;

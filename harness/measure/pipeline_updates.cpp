@@ -27,9 +27,8 @@ void Pipeline::begin_frame(std::span<const Motion> motions)
     if (collider_->keeps_tree() || update_ == FrameUpdate::refit) {
         updates_ = builder_->plan_update(std::vector(updates_.size(), asked), session_.queue());
     } else if (entering_) {
-        const bool keeps_all =
-            skips(skip_unchanged) && queries() && !motions.empty() &&
-            std::ranges::count(motions, Motion::unchanged) == std::ssize(motions);
+        const bool keeps_all = skips(skip_unchanged) && queries() && !motions.empty() &&
+                               motion_of_all(motions) == Motion::unchanged;
         updates_.assign(updates_.size(), keeps_all ? TreeUpdate::keep : TreeUpdate::rebuild);
     } else if (one_tree_ && !motions.empty()) {
         const Motion whole = motion_of_all(motions);
