@@ -144,7 +144,7 @@ private:
         Session session(invocation.common);
         const OutputRules rules =
             result_rules(invocation.common.force, scene_files(task_.scene, session.scenes()));
-        ResultFile results(Output(json_, "--json", rules), invocation.common.force, Resuming{}, {});
+        ResultFile results(Output(json_, "--json", rules), invocation.common.force);
         Json facts = run_facts(session.device(), invocation.words);
         const Cell cell = cell_of(simulate_cluster(session, task_));
         return finish(results, std::move(facts), cell, session, invocation);
@@ -170,8 +170,7 @@ private:
         const bool is_first = ranks.rank() == 0;
         const OutputRules rules =
             result_rules(common.force, scene_files(task_.scene, session.scenes()));
-        ResultFile results(is_first ? Output(json_, "--json", rules) : Output(), common.force,
-                           Resuming{}, {});
+        ResultFile results(is_first ? Output(json_, "--json", rules) : Output(), common.force);
         const Output pairs = is_first ? Output(pairs_, "--pairs", rules) : Output();
         const Output contacts = is_first ? Output(contacts_, "--contacts", rules) : Output();
         PairsFile pairs_file(pairs, false),

@@ -20,24 +20,16 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the cells of an experiment without loading its scenes.
-std::vector<Cell> cells_of(const Experiment& experiment)
-{
-    std::vector<Cell> cells;
-    const RunPlan plan{.name = experiment.name, .parts = {experiment}};
-    for (const PlannedScene& scene : planned_scenes(plan, {}, {}, ""))
-        std::ranges::move(planned_cells(scene, {}), std::back_inserter(cells));
-    return cells;
-}
-
 /// Returns an experiment's cells, input files, and number of triangles (0 if only loading the scene tells it). Returns `error`
 /// for an invalid experiment, with `sized` if its scene is a generator without a size.
 Json expanded(const Json& described, const SceneLibrary& library)
 {
     try {
-        const Experiment experiment = parse_experiment(described.dump(), "", false);
+        const RunPlan plan{.name = {}, .parts = {parse_experiment(described.dump(), "", false)}};
+        std::vector<Cell> planned;  // without loading scenes
+        for (const PlannedScene& scene : planned_scenes(plan, {}, {}, ""))
+            std::ranges::move(planned_cells(scene, {}), std::back_inserter(planned));
         Json cells = Json::array();
-        const std::vector<Cell> planned = cells_of(experiment);
         for (const Cell& cell : planned) {
             check_powers({cell.builder, cell.collider});
             cells.push_back(Json::parse(cell_text(cell)));

@@ -171,10 +171,9 @@ private:
     static std::string hash_of_program()
     {
         std::ifstream file("/proc/self/exe", std::ios::binary);
+        const std::string program(std::istreambuf_iterator<char>(file), {});
         Hash hash;
-        for (std::vector<char> piece(1 << 20);
-             file.read(piece.data(), piece.size()) || file.gcount() > 0;)
-            hash.bytes(piece.data(), static_cast<std::size_t>(file.gcount()));
+        hash.bytes(program.data(), program.size());
         return hex(hash.get());
     }
 

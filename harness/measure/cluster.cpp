@@ -130,8 +130,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
 
 Simulation simulate_cluster(Session& session, const ClusterTask& task)
 {
-    Simulation simulation;
-    simulation.task = task;
+    Simulation simulation{.task = task};
     LoneRank lone;
     std::vector<Share> shares = shares_of(first_share(task, session, lone, simulation.scene),
                                           task.partition, task.simulates);

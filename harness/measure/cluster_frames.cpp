@@ -84,8 +84,7 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, ClusterFound& foun
             if (k > task.frames.first)
                 watched([&] { part.frame.move(routes.sent(points_in(k), ranks)); });
             frames.push_back(part.run());
-            ClusterFrame one;
-            one.frame = k;
+            ClusterFrame one{.frame = k};
             one.imbalance = imbalance_of(
                 part.own.triangles + frames.back().own_pairs + frames.back().halo_pairs, ranks);
             ClusterEvidence& of_frame = evidence.emplace_back();

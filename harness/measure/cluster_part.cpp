@@ -12,12 +12,6 @@
 #include "scenes/face_order.h"
 
 namespace bvhbench {
-namespace {
-
-std::vector<char> characters(const std::string& text) { return {text.begin(), text.end()}; }
-
-}  // namespace
-
 Scene whole_scene(const ClusterTask& task, Session& session)
 {
     return with_objects(load_scene(task.scene, session.scenes()), ObjectsBy::one);
@@ -66,6 +60,9 @@ void collect_at_first(HostedRanks& ranks, const std::string& device, ClusterRank
 {
     const std::uint64_t numbers[] = {own.triangles, own.predicted_bytes, own.device_bytes,
                                      host_memory_facts().peak};
+    const auto characters = [](const std::string& text) {
+        return std::vector<char>(text.begin(), text.end());
+    };
     const auto hosts = at_first(ranks, characters(ranks.host()));
     const auto devices = at_first(ranks, characters(device));
     const auto of_ranks = at_first(ranks, std::vector(std::begin(numbers), std::end(numbers)));

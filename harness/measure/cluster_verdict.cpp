@@ -12,9 +12,7 @@ namespace {
 /// Returns a verdict that agrees, unless a pair is found twice.
 Check begun(const ClusterEvidence& evidence, const std::string& against)
 {
-    Check check;
-    check.verdict = Check::Verdict::agrees;
-    check.against = against;
+    Check check{.verdict = Check::Verdict::agrees, .against = against};
     if (evidence.list)
         check.pairs_hash = evidence.list->hash();
     if (evidence.contact_list)

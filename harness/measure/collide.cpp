@@ -58,12 +58,10 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
 {
     const Scene scene = scene_of(task, session.scenes());
     const FrameRange frames = frames_of(task, scene.frame_count(), "frames");
-    const bool finds_nothing =
-        scene.objects.size() == 1 &&
-        std::ranges::all_of(task.pipelines, [](const PipelineChoice& pipeline) {
-            return pipeline.collider.among == Among::between_objects;
-        });
-    if (finds_nothing)
+    const auto is_between = [](const PipelineChoice& pipeline) {
+        return pipeline.collider.among == Among::between_objects;
+    };
+    if (scene.objects.size() == 1 && std::ranges::all_of(task.pipelines, is_between))
         throw BadUsage("scene '" + task.scene +
                        "' is one object, and there are no pairs between objects");
     if (passes &&
@@ -136,13 +134,12 @@ Note note_of(const CollideTask& task, const std::string& what, std::size_t k, st
 
 Cell planned_cell(const CollideTask& task, const PipelineChoice& pipeline)
 {
-    Cell cell;
-    cell.experiment = task.experiment;
-    cell.scene.name = task.scene;
+    Cell cell{.experiment = task.experiment,
+              .scene = {.name = task.scene},
+              .builder = pipeline.builder,
+              .collider = pipeline.collider,
+              .operation = Operation::collide};
     put_choice(task, cell.scene);
-    cell.builder = pipeline.builder;
-    cell.collider = pipeline.collider;
-    cell.operation = Operation::collide;
     return cell;
 }
 

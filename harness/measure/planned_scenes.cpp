@@ -96,10 +96,10 @@ std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& fi
 std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::string& scene,
                                   const CellFilter& filter)
 {
-    std::vector<BuilderChoice> builders;
-    for (const BuilderChoice& builder : experiment.builders)
-        if (passes(filter, scene + '/' + builder.name))
-            builders.push_back(builder);
+    std::vector<BuilderChoice> builders = experiment.builders;
+    std::erase_if(builders, [&](const BuilderChoice& builder) {
+        return !passes(filter, scene + '/' + builder.name);
+    });
     return builders;
 }
 
@@ -117,12 +117,10 @@ std::vector<Cell> planned_cells(const PlannedScene& planned, const CellFilter& f
                 cell.collider.keep_adjacent && !planned.collides->has_features();
         }
     else
-        for (const BuilderChoice& builder : chosen(*planned.experiment, planned.name, filter)) {
-            Cell& cell = cells.emplace_back();
-            cell.experiment = planned.experiment->name;
-            cell.scene.name = planned.name;
-            cell.builder = builder;
-        }
+        for (const BuilderChoice& builder : chosen(*planned.experiment, planned.name, filter))
+            cells.push_back({.experiment = planned.experiment->name,
+                             .scene = {.name = planned.name},
+                             .builder = builder});
     for (Cell& cell : cells)
         cell.status = Cell::Status::skipped;
     return cells;

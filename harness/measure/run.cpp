@@ -114,9 +114,8 @@ bool Run::scenes(const RunPlan& plan, std::span<const PlannedScene> scenes,
 void Run::measure(const PlannedScene& planned, const CellFilter& filter, Progress& progress)
 {
     const Experiment& experiment = *planned.experiment;
-    const std::string title = experiment.name + ": " + planned.name;
     const std::string name = "scene " + std::to_string(planned.number);
-    progress.step(title);
+    progress.step(experiment.name + ": " + planned.name);
     if (const std::string why = watchdog::given_up(name); !why.empty()) {
         results_.take_rest();
         for (Cell& cell : planned_cells(planned, filter)) {
@@ -140,13 +139,12 @@ void Run::measure(const PlannedScene& planned, const CellFilter& filter, Progres
 void Run::collisions(const Experiment& experiment, CollideTask task, const CellFilter& filter,
                      Progress& progress)
 {
-    const std::string title = task.experiment + ": " + task.scene;
     task.number = std::to_string(number_);
     task.pipelines = chosen(task, filter);
     if (experiment.quality)
         task.quality = costs_;
     task.note = [&](const std::string& what, double share) {
-        progress.note(title + ", " + what, share);
+        progress.note(task.experiment + ": " + task.scene + ", " + what, share);
     };
     collide_frames(
         session_, task, order_,

@@ -27,8 +27,8 @@ struct ClusterRank {
 /// A frame of a scene that moves.
 struct ClusterFrame {
     std::size_t frame = 0;
-    PairFacts pairs;
-    std::optional<PairFacts> contacts;
+    PairFacts pairs = {};
+    std::optional<PairFacts> contacts = {};
     /// Of work, triangles and pairs: the most of a rank, divided by the mean.
     double imbalance = 1;
     std::uint64_t moved_triangles = 0;  ///< to other ranks, after the frame
@@ -49,9 +49,9 @@ struct ClusterResult {
 /// What ranks would do, counted without running them.
 struct Simulation {
     ClusterTask task;
-    SceneFacts scene;
+    SceneFacts scene = {};
     std::int64_t part_ns = 0;  ///< host clock: a frame of the largest part alone, on this device
-    std::vector<SimulatedRank> ranks;
+    std::vector<SimulatedRank> ranks = {};
 };
 
 /// Returns a cell that says what was asked for and has no measurements yet.

@@ -57,12 +57,12 @@ Findings with_words(std::string_view words, Findings findings);
 struct StressCell {
     enum class Kind { builder, collider, host, library };
 
-    std::string family, scene;
+    std::string family = {}, scene = {};
     std::int64_t triangles = 0;
-    std::string system;
+    std::string system = {};
     Kind kind = Kind::builder;
-    std::string library;  ///< library that the system belongs to; empty: this project
-    Findings findings;
+    std::string library = {};  ///< library that the system belongs to; empty: this project
+    Findings findings = {};
 
     bool operator==(const StressCell&) const = default;
 };

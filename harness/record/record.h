@@ -32,8 +32,8 @@ struct Sample {
 /// Verdict on the correctness of a measured cell. `counted`: the method may be wrong, and the cell's counters have its errors.
 struct Check {
     enum class Verdict { agrees, differs, not_checked, counted } verdict = Verdict::not_checked;
-    std::string against;
-    std::string detail;  ///< what differs, or why nothing was checked
+    std::string against = {};
+    std::string detail = {};  ///< what differs, or why nothing was checked
     std::optional<std::uint64_t> tree_hash = {};
     std::optional<std::uint64_t> pairs_hash = {};
     std::optional<std::uint64_t> contacts_hash = {};
@@ -64,19 +64,19 @@ struct SceneFacts {
     std::int64_t vertices = 0;
     std::int64_t objects = 0;
     std::int64_t frame = 0;
-    std::string source;
-    std::string stand_in_for;
-    Outlier outlier;  ///< empty name: no triangle was moved
-    Rounding rounding;
-    std::string bend_of;
-    std::optional<MeshFacts> mesh;  ///< of a scene that was read from a file
-    Reading reading;
+    std::string source = {};
+    std::string stand_in_for = {};
+    Outlier outlier = {};  ///< empty name: no triangle was moved
+    Rounding rounding = {};
+    std::string bend_of = {};
+    std::optional<MeshFacts> mesh = {};  ///< of a scene that was read from a file
+    Reading reading = {};
     std::uint64_t content_hash = 0;
 };
 
 /// Query for pairs of features in place of triangles.
 struct FeatureFacts {
-    std::string pairs;  ///< vertex-face or edge-edge; empty: pairs are of triangles
+    std::string pairs = {};  ///< vertex-face or edge-edge; empty: pairs are of triangles
     /// To which boxes are swept from SceneFacts::frame; 0: they are not.
     std::int64_t to_frame = 0;
     std::int64_t primitives = 0;  ///< number of vertices and faces, or of edges
@@ -84,8 +84,8 @@ struct FeatureFacts {
 
 /// Axis of accuracy of a cell, and the method that gave its answers.
 struct AccuracyFacts {
-    std::string axis;  ///< empty: the cell is on no axis
-    std::string method;
+    std::string axis = {};  ///< empty: the cell is on no axis
+    std::string method = {};
     std::int64_t seed = 0;  ///< of generated input; 0: nothing was generated
 };
 
@@ -109,29 +109,32 @@ struct Cell {
     enum class Status { measured, skipped, failed };
 
     std::string experiment;
-    SceneFacts scene;
-    BuilderChoice builder;
-    ColliderChoice collider;  ///< empty name: none
-    FeatureFacts features;
-    AccuracyFacts accuracy;
+    SceneFacts scene = {};
+    BuilderChoice builder = {};
+    ColliderChoice collider = {};  ///< empty name: none
+    FeatureFacts features = {};
+    AccuracyFacts accuracy = {};
     Json cluster = {};  ///< of several ranks: what record/cluster_result.h has; else null
     Operation operation = Operation::build;
     Status status = Status::measured;
-    std::string reason;  ///< why it was skipped or failed
-    int warm_up = 0;     ///< samples taken first and discarded
+    std::string reason = {};  ///< why it was skipped or failed
+    int warm_up = 0;          ///< samples taken first and discarded
     FirstRun first = {};
     SamplingFacts sampling = {};
-    std::vector<Sample> samples;
-    std::map<std::string, double> counters;       ///< keys end in the unit: nodes_count, tree_bytes
-    std::map<std::string, std::string> left_out;  ///< counters without a value, with the reason
-    std::vector<std::int64_t> leaves_by_depth;    ///< number of leaves per level, from the root on
-    Check check;
+    std::vector<Sample> samples = {};
+    /// Keys end in the unit: nodes_count, tree_bytes.
+    std::map<std::string, double> counters = {};
+    /// Counters without a value, with the reason.
+    std::map<std::string, std::string> left_out = {};
+    /// Number of leaves per level, from the root on.
+    std::vector<std::int64_t> leaves_by_depth = {};
+    Check check = {};
     /// With `within`: the distance in the scene's unit, for which pairs are exact.
     std::optional<double> within_distance = {};
     /// With `first`: two triangles that intersect, by their numbers in the scene's file; empty: no two do.
     std::optional<std::vector<uint>> first_contact = {};
     /// Objects that lie wholly inside others, each with the name of the other (--containment).
-    std::vector<std::pair<std::string, std::string>> contained;
+    std::vector<std::pair<std::string, std::string>> contained = {};
 };
 
 /// Format version of written files.

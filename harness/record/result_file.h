@@ -42,7 +42,8 @@ class ResultFile {
 public:
     /// Takes over what a crashed process of the run `resumed_run` has left or, if `resuming` is asked for, what earlier runs have left.
     /// Otherwise throws BadUsage if there is a journal that `force` does not allow to replace. begin() must follow before add().
-    ResultFile(Output output, bool force, const Resuming& resuming, const std::string& resumed_run);
+    ResultFile(Output output, bool force, const Resuming& resuming = {},
+               const std::string& resumed_run = {});
 
     /// The same, begun with the facts of its run.
     ResultFile(Output output, bool force, Json run, const std::string& resumed_run = {});

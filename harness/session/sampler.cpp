@@ -123,9 +123,7 @@ private:
             return;
         slow_down(stages, cells_[i].name);
         rules_[i].add(whole_ns(stages), drift_.is_steady());
-        Sample& sample = taken.samples.emplace_back();
-        sample.order = order;
-        sample.stages = std::move(stages);
+        Sample& sample = taken.samples.emplace_back(Sample{order, std::move(stages)});
         if (cells_[i].wall_ns)
             sample.wall_ns = cells_[i].wall_ns();
         runners_[i].values.push_back(raced_ns(plan_.rules.race, sample));

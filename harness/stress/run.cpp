@@ -72,9 +72,8 @@ void stress_all(Session& session, const StressTask& task, const AddCell& add)
     Progress progress(parts.size());
     for (const StressPart& part : parts) {
         progress.step(part.family + ", " + part.scene.name);
-        StressCell place;
-        place.family = part.family, place.scene = part.scene.name;
-        guarded(session, place, add, [&] { judge_part(session, task, part, add); });
+        guarded(session, {.family = part.family, .scene = part.scene.name}, add,
+                [&] { judge_part(session, task, part, add); });
     }
 }
 

@@ -80,7 +80,7 @@ struct Search {
             return;
         note("comparing with what it began with", result);
         const std::unique_ptr<Trial> before = make(start), after = make(result.best);
-        const std::vector<std::vector<double>> times = sampled({before.get(), after.get()}, "");
+        const auto times = sampled({before.get(), after.get()}, "");
         result.start_ns = median(times[0]);
         result.best_ns = median(times[1]);
         if (result.best_ns < result.start_ns && after->wrong().empty())
@@ -92,9 +92,7 @@ struct Search {
     Contender contender(const Parameter& parameter, uint value)
     {
         note(std::string(parameter.name) + " = " + std::to_string(value), result);
-        Contender one;
-        one.tried.parameter = &parameter;
-        one.tried.value = value;
+        Contender one{{.parameter = &parameter, .value = value}, nullptr};
         Tuning tuning = result.best;
         tuning.set(parameter, value);
         const std::string failure = reason_of_failure([&] {
@@ -144,8 +142,7 @@ struct Search {
     bool is_confirmed(Contender& best, Contender& current)
     {
         const Parameter& parameter = *best.tried.parameter;
-        const std::vector<std::vector<double>> times =
-            sampled({current.trial.get(), best.trial.get()}, parameter.stage);
+        const auto times = sampled({current.trial.get(), best.trial.get()}, parameter.stage);
         if (const std::string why = best.trial->wrong(); !why.empty()) {
             reject(best, TrialResult::Verdict::wrong, why);
             return false;

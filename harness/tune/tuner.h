@@ -52,9 +52,9 @@ struct TrialResult {
     const Parameter* parameter = nullptr;
     uint value = 0;
     Verdict verdict = Verdict::not_better;
-    std::string detail;    ///< reason, if wrong or impossible
-    double median_ns = 0;  ///< of the parameter's stage; 0: not timed
-    double ratio = 0;      ///< median relative to that of the value before
+    std::string detail = {};  ///< reason, if wrong or impossible
+    double median_ns = 0;     ///< of the parameter's stage; 0: not timed
+    double ratio = 0;         ///< median relative to that of the value before
 };
 
 /// Result of a search; a partial one if the search was stopped.
