@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/names.h"
@@ -12,39 +14,31 @@
 namespace bvhbench {
 namespace {
 
-constexpr const char* two_scenes[] = {"torus:100000", "hairball:100000"};
-constexpr const char* scenes_of_sums[] = {"torus:100000", "hairball:100000", "torus:1000000"};
-constexpr const char* scenes_of_codes[] = {"torus:100000", "hairball:100000", "grid:100000",
-                                           "outlier:sphere:100000:0:1000", "n-body:100000"};
-constexpr const char* small_torus[] = {"torus:20000"};
-constexpr const char* spheres_by_size[] = {"two-spheres:2000", "two-spheres:20000",
-                                           "two-spheres:200000"};
-constexpr const char* moving_scenes[] = {"unc_cloth_ball", "unc_nbody", "ipc_armadillo_rollers",
-                                         "n-body:146480", "funnel"};
-
 // To add an axis, add a file and a line here.
 constexpr Axis catalog[] = {
     {"narrow",
      "which narrow phase is wrong how often, on which pairs of triangles, and what it takes",
      measure_narrow},
     {"sums", "how far off is the surface area cost, by how areas are summed", nullptr, measure_sums,
-     scenes_of_sums},
+     "torus:100000 hairball:100000 torus:1000000"},
     {"codes", "what do more bits a code and cubic cells buy: duplicates, tree, box tests", nullptr,
-     measure_codes, scenes_of_codes, true},
+     measure_codes,
+     "torus:100000 hairball:100000 grid:100000 outlier:sphere:100000:0:1000 n-body:100000", true},
     {"input", "what does rounding vertices from doubles to floats add to the pairs of boxes",
-     nullptr, measure_input, small_torus},
+     nullptr, measure_input, "torus:20000"},
     {"place",
      "what does exact arithmetic take, by the distance from the origin and the triangles' size",
-     nullptr, measure_place, spheres_by_size},
+     nullptr, measure_place, "two-spheres:2000 two-spheres:20000 two-spheres:200000"},
     {"boxes", "what do fewer bytes a box cost in false pairs and save in time", nullptr,
-     measure_boxes, two_scenes},
+     measure_boxes, "torus:100000 hairball:100000"},
     {"swept",
      "who finds the pairs that may meet between two frames, how soon, and how many for each that "
      "does",
      measure_swept},
     {"frames",
      "what does a frame cost and how many contacts does it miss or invent, by how it is rounded",
-     nullptr, measure_frames, moving_scenes, false, 3},
+     nullptr, measure_frames, "unc_cloth_ball unc_nbody ipc_armadillo_rollers n-body:146480 funnel",
+     false, 3},
     {"impacts",
      "what does a smaller tolerance of the narrow phase between two frames take, and which false "
      "pairs does it save",
@@ -81,12 +75,12 @@ void Axis::measure(const AxisRun& run) const
         return measure_all(run);
     std::vector<std::string> scenes = run.task.scenes;
     const bool may_stand_in = scenes.empty();  // what the user names is not replaced
+    std::istringstream own(own_scenes);
     if (may_stand_in)
-        scenes.assign(own_scenes.begin(), own_scenes.end());
+        scenes.assign(std::istream_iterator<std::string>(own), {});
     for (const std::string& scene : scenes) {
         run.progress.note("accuracy, " + std::string(name) + ": " + scene);
-        SceneFacts facts;
-        facts.name = scene;
+        SceneFacts facts{.name = scene};
         bool is_there = false;
         const std::string failure = reason_of_failure([&] {
             Scene there = scene_called(scene, may_stand_in, run.session.scenes());
@@ -102,21 +96,19 @@ void Axis::measure(const AxisRun& run) const
         });
         if (failure.empty())
             continue;
-        Measurement all{accuracy_cell(name, "all", facts)};
+        Cell all = accuracy_cell(name, "all", facts);
         run.engine().refuse(all, is_there ? Cell::Status::failed : Cell::Status::skipped, failure);
-        run.add(std::move(all.cell));
+        run.add(std::move(all));
     }
 }
 
 Cell accuracy_cell(std::string_view axis, std::string_view method, SceneFacts input)
 {
-    Cell cell;
-    cell.experiment = "accuracy";
-    cell.scene = std::move(input);
-    cell.builder = {.name = "none"};
-    cell.accuracy = {.axis = std::string(axis), .method = std::string(method)};
-    cell.operation = Operation::accuracy;
-    return cell;
+    return {.experiment = "accuracy",
+            .scene = std::move(input),
+            .builder = {.name = "none"},
+            .accuracy = {.axis = std::string(axis), .method = std::string(method)},
+            .operation = Operation::accuracy};
 }
 
 void judge(Cell& cell, std::string_view reference, bool must_be_right, const std::string& wrong)

@@ -15,8 +15,8 @@
 #include "collide/pairs.h"
 #include "geometry/mesh.h"
 #include "harness/base/terminal.h"
-#include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
+#include "harness/measure/frame_verdict.h"
 #include "harness/measure/pipeline.h"
 #include "harness/measure/run.h"
 #include "harness/record/record.h"
@@ -61,7 +61,7 @@ struct Axis {
     /// objects. Called for each scene asked for, or for each of own_scenes.
     void (*measure_frame)(const AxisRun& run, const SceneFacts& scene,
                           const Input& input) = nullptr;
-    std::span<const char* const> own_scenes = {};  ///< stand-ins may replace them
+    const char* own_scenes = "";  ///< with spaces between; stand-ins may replace them
     bool by_objects = false;
     std::size_t most_frames = 1;  ///< of a scene, spread over all; 1: the first
 
@@ -88,10 +88,10 @@ struct AxisMethod {
     std::function<void(Measurement&)> prepare;  ///< as `work` of Engine::prepare
 };
 
-/// Returns a method of the fastest pipeline on this kind of device, as far as is known, without its `prepare`. Pairs of triangles
+/// Returns a method of the fastest pipeline on this kind of device, as far as is known. Pairs of triangles
 /// that share a vertex are left out.
 AxisMethod fastest_method(const Session& session, std::string name, std::string boxes,
-                          std::string narrow);
+                          std::string narrow, std::function<void(Measurement&)> prepare = {});
 
 /// Adds a cell for each method that the filter accepts: prepared, sampled interleaved with the others, and judged.
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
@@ -158,9 +158,6 @@ using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
 /// Prepares a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
 void prepare_pipeline(Session& session, const Input& input, Measurement& one,
                       const JudgePipeline& judge);
-
-/// Compares the pairs or contacts found with the correct ones. Writes the counters missed_count and false_count, and returns both.
-Differences count_errors(const PairList& found, const PairList& right, Cell& cell);
 
 /// Points that were rounded, and the input over them.
 struct RoundedInput {

@@ -15,8 +15,6 @@
 namespace bvhbench {
 namespace {
 
-constexpr std::size_t at_once = 256;  ///< pairs that a thread takes
-
 /// Returns the pairs that only `one` has, or `most` of them.
 std::vector<Pair> only_in(const PairList& one, const PairList& other, std::size_t most)
 {
@@ -44,15 +42,12 @@ void ErrorSizes::add(const PairList& found, const PairList& right, std::span<con
                          const auto& size) {
         const std::size_t before = sizes.size();
         sizes.resize(before + pairs.size());
-        on_all_cores(pairs.size() / at_once + 1, [&](std::size_t part) {
-            for (std::size_t k = part * at_once; k < std::min((part + 1) * at_once, pairs.size());
-                 ++k) {
-                const Corners a = corners_of(points, faces[pairs[k].a]),
-                              b = corners_of(points, faces[pairs[k].b]);
-                const Point six[] = {a.at[0], a.at[1], a.at[2], b.at[0], b.at[1], b.at[2]};
-                const double whole = unit > 0 ? unit : longest_side(six);
-                sizes[before + k] = whole > 0 ? size(a, b) / whole : 0;
-            }
+        on_all_cores(pairs.size(), [&](std::size_t k) {
+            const Corners a = corners_of(points, faces[pairs[k].a]),
+                          b = corners_of(points, faces[pairs[k].b]);
+            const Point six[] = {a.at[0], a.at[1], a.at[2], b.at[0], b.at[1], b.at[2]};
+            const double whole = unit > 0 ? unit : longest_side(six);
+            sizes[before + k] = whole > 0 ? size(a, b) / whole : 0;
         });
     };
     add(only_in(right, found, most), depths_, [](const Corners& a, const Corners& b) {

@@ -83,8 +83,7 @@ void measure_frames(const AxisRun& run, const SceneFacts& scene, const Input& in
             prepare_pipeline(run.session, rounded ? rounded->input : input, one, judge);
         };
         methods.push_back(
-            fastest_method(run.session, setting.method, setting.boxes, setting.narrow));
-        methods.back().prepare = prepare;
+            fastest_method(run.session, setting.method, setting.boxes, setting.narrow, prepare));
     }
     measure_methods(run, "frames", scene, methods);
 }

@@ -18,15 +18,14 @@
 namespace bvhbench {
 namespace {
 
-constexpr const char* own_sets[] = {"ccd_wang2021", "ccd_scalable"};
-
 /// A sample answers this many queries or more: sets that are smaller are repeated.
 constexpr std::size_t least_queries = 1u << 16;
 
 using Times = std::vector<std::optional<ImpactTime>>;
 
-/// Counts what is wrong with a method's answers, and how far they are before the right ones.
-void count_answers(const std::vector<double>& found, const Times& right, Cell& cell)
+/// Counts what is wrong with a method's times and how far they are before the right ones, and puts the verdict. The times of a
+/// method that misses nothing must be right.
+void judge_times(const std::vector<double>& found, const Times& right, bool misses_none, Cell& cell)
 {
     double missed = 0, wrong = 0, late = 0, shortened = 0;
     std::vector<double> gaps;  // of queries that touch and were found to
@@ -47,17 +46,10 @@ void count_answers(const std::vector<double>& found, const Times& right, Cell& c
     cell.counters["gap_median"] = value_at(gaps, 0.5);
     cell.counters["gap_99_percent"] = value_at(gaps, 0.99);
     cell.counters["shortened_mean"] = shortened / static_cast<double>(found.size());
-}
-
-/// Puts the counters and the verdict of a method's times. Those of a method that misses nothing must be right.
-void judge_times(const std::vector<double>& found, const Times& right, bool misses_none, Cell& cell)
-{
-    count_answers(found, right, cell);
     cell.counters["queries_count"] = static_cast<double>(found.size());
     cell.counters["touching_count"] =
         static_cast<double>(std::ranges::count_if(right, &std::optional<ImpactTime>::has_value));
-    const bool is_wrong = cell.counters["missed_count"] + cell.counters["late_count"] > 0;
-    judge(cell, "CGAL", misses_none && is_wrong,
+    judge(cell, "CGAL", misses_none && missed + late > 0,
           "a touch was missed or said to be later than it is");
 }
 
@@ -114,13 +106,12 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
     if (methods.empty())
         return;
     right = impact_times(set.queries);
-    SceneFacts facts;
-    facts.name = name;
-    facts.source = source;
     // As the features of swept boxes: a vertex, an edge and a face are a triangle each.
-    facts.triangles = static_cast<std::int64_t>(2 * set.queries.size());
-    facts.vertices = static_cast<std::int64_t>(4 * set.queries.size());
-    facts.objects = 1;
+    SceneFacts facts{.name = name,
+                     .triangles = static_cast<std::int64_t>(2 * set.queries.size()),
+                     .vertices = static_cast<std::int64_t>(4 * set.queries.size()),
+                     .objects = 1,
+                     .source = source};
     Hash hash;
     for (const MovingQuery& query : set.queries)
         for (const auto& points : {query.from, query.to})
@@ -139,7 +130,7 @@ void measure_queries(const AxisRun& run)
 {
     std::vector<std::string> asked = run.task.scenes;
     if (asked.empty())
-        asked.assign(std::begin(own_sets), std::end(own_sets));
+        asked = {"ccd_wang2021", "ccd_scalable"};
     for (const std::string& name : asked) {
         run.progress.note("accuracy, queries: " + name);
         const std::string failure = reason_of_failure([&] {
@@ -155,15 +146,11 @@ void measure_queries(const AxisRun& run)
                 measure_set(run, set, entry == nullptr ? set.name : name + '/' + set.name,
                             entry == nullptr ? path.string() : entry->source);
         });
-        if (failure.empty())
+        if (failure.empty() || !run.task.wants(name, "all"))
             continue;
-        if (!run.task.wants(name, "all"))
-            continue;
-        SceneFacts facts;
-        facts.name = name;
-        Measurement all{accuracy_cell("queries", "all", facts)};
+        Cell all = accuracy_cell("queries", "all", {.name = name});
         run.engine().refuse(all, Cell::Status::skipped, failure);
-        run.add(std::move(all.cell));
+        run.add(std::move(all));
     }
 }
 

@@ -74,13 +74,6 @@ std::shared_ptr<NarrowPhase> compiled(Session& session, const NarrowMethod& meth
     }
 }
 
-/// Returns the bytes that a query of a piece must move if it finds `found`.
-std::int64_t moved_bytes(const PairList& found, const Piece& piece)
-{
-    const auto pairs = static_cast<std::int64_t>(piece.pairs.size() + found.size());
-    return corner_bytes(piece.pairs, piece.input) + pairs * static_cast<std::int64_t>(sizeof(Pair));
-}
-
 void put(Cell& cell, const char* name, auto value)
 {
     cell.counters[name] = static_cast<double>(value);
@@ -90,19 +83,9 @@ void put(Cell& cell, const char* name, auto value)
 void count_piece(const PairList& found, const Piece& piece, ErrorSizes& sizes, Cell& cell)
 {
     sizes.add(found, piece.meeting, piece.mesh.points, piece.mesh.faces, 0, sized_pairs);
-    const Differences wrong = differences(found, piece.meeting);
+    count_errors(found, piece.meeting, cell);
     put(cell, "pairs_count", piece.pairs.size());
     put(cell, "meeting_count", piece.meeting.size());
-    put(cell, "missed_count", wrong.missed);
-    put(cell, "false_count", wrong.false_ones);
-}
-
-/// Writes how many pairs a narrow phase of ours decided in which arithmetic.
-void count_arithmetic(const NarrowCounts& counts, Cell& cell)
-{
-    put(cell, "narrow_float_count", counts.by_floats);
-    put(cell, "narrow_double_count", counts.by_doubles);
-    put(cell, "narrow_exact_count", counts.exactly);
 }
 
 /// Returns the names of our narrow phases, and of those from outside behind them.
@@ -151,7 +134,10 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
             narrow->reserve(piece.mesh.faces.size());
             const PairList first = contacts_of(*narrow, piece, session);
             const std::uint64_t hash = first.hash();
-            one.once = [&, narrow, moved = moved_bytes(first, piece)] {
+            const auto listed = static_cast<std::int64_t>(piece.pairs.size() + first.size());
+            const std::int64_t moved =
+                corner_bytes(piece.pairs, piece.input) + listed * std::int64_t{sizeof(Pair)};
+            one.once = [&, narrow, moved] {
                 session.give_head_start();
                 narrow->query(piece.input, piece.candidates.pairs, piece.candidates.counters,
                               session.queue());
@@ -164,7 +150,10 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
                 if (found.hash() != hash)
                     throw Unavailable("it found other contacts after the samples than before");
                 count_piece(found, piece, sizes[std::string(method.name)], one.cell);
-                count_arithmetic(narrow->counts(session.queue()), one.cell);
+                const NarrowCounts counts = narrow->counts(session.queue());
+                put(one.cell, "narrow_float_count", counts.by_floats);
+                put(one.cell, "narrow_double_count", counts.by_doubles);
+                put(one.cell, "narrow_exact_count", counts.exactly);
             };
         };
         methods.push_back({.name = std::string(method.name), .prepare = prepare});
@@ -172,9 +161,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
     for (const outside::Offer* offer : outside_offers())
         if (offer->method.narrows)
             methods.push_back(from_outside(session, *offer, piece, sizes[offer->method.name]));
-    SceneFacts facts;
-    facts.name = name;
-    measure_methods(run, "narrow", facts, methods);
+    measure_methods(run, "narrow", {.name = name}, methods);
 }
 
 /// Adds the counters of a piece's cell to those of the pieces before it, and the samples one by one. The first failure stays.
@@ -236,18 +223,17 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
         cell.scene.source = "pairs: " + of.summary;
         cell.scene.content_hash = hash.get();
         cell.accuracy.seed = run.task.seed;
-        Measurement all{std::move(cell)};
         if (!failure.empty())
-            run.engine().refuse(all, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
+            run.engine().refuse(cell, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                                 failure);
-        else if (all.cell.status == Cell::Status::measured) {
-            sizes[all.cell.accuracy.method].put(all.cell);
-            if (outside_library(all.cell.accuracy.method) != nullptr)
-                judge_errors(all.cell, "CGAL", false);
+        else if (cell.status == Cell::Status::measured) {
+            sizes[cell.accuracy.method].put(cell);
+            if (outside_library(cell.accuracy.method) != nullptr)
+                judge_errors(cell, "CGAL", false);
             else
-                judge_contacts(all.cell, "CGAL", all.cell.accuracy.method);
+                judge_contacts(cell, "CGAL", cell.accuracy.method);
         }
-        run.add(std::move(all.cell));
+        run.add(std::move(cell));
     }
 }
 

@@ -63,7 +63,7 @@ void at_places(const SceneFacts& scene, const Input& input, std::initializer_lis
 }  // namespace
 
 AxisMethod fastest_method(const Session& session, std::string name, std::string boxes,
-                          std::string narrow)
+                          std::string narrow, std::function<void(Measurement&)> prepare)
 {
     return {.name = std::move(name),
             .builder = {{.order = "hilbert30", .sorted_leaves = true, .boxes = std::move(boxes)},
@@ -71,7 +71,7 @@ AxisMethod fastest_method(const Session& session, std::string name, std::string 
             .collider = {{.keep_adjacent = false},
                          session.device().is_cpu() ? "group" : "block",
                          std::move(narrow)},
-            .prepare = {}};
+            .prepare = std::move(prepare)};
 }
 
 void prepare_pipeline(Session& session, const Input& input, Measurement& one,
@@ -84,14 +84,6 @@ void prepare_pipeline(Session& session, const Input& input, Measurement& one,
     one.cell.counters = pipeline->counters();
     one.once = [&input, pipeline] { return pipeline->once(input); };
     one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
-}
-
-Differences count_errors(const PairList& found, const PairList& right, Cell& cell)
-{
-    const Differences wrong = differences(found, right);
-    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
-    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
-    return wrong;
 }
 
 std::shared_ptr<RoundedInput> upload_rounded(Session& session, std::vector<Point> points,
@@ -179,14 +171,14 @@ void measure_place(const AxisRun& run, const SceneFacts& scene, const Input& inp
                 touching_pairs(floats->points, input.faces, false).pairs(), false);
             std::vector<AxisMethod> methods;
             for (const char* narrow : {"exact", "filter-f64"}) {
-                methods.push_back(fastest_method(run.session, narrow, "f32", narrow));
-                methods.back().prepare = [&, narrow](Measurement& one) {
-                    prepare_pipeline(run.session, floats->input, one,
-                                     [&, narrow](const Pipeline& pipeline, Cell& cell) {
-                                         count_errors(PairList(pipeline.contacts()), right, cell);
-                                         judge_contacts(cell, "CGAL boxes, CGAL", narrow);
-                                     });
+                const auto judge = [&, narrow](const Pipeline& pipeline, Cell& cell) {
+                    count_errors(PairList(pipeline.contacts()), right, cell);
+                    judge_contacts(cell, "CGAL boxes, CGAL", narrow);
                 };
+                const auto prepare = [&, judge](Measurement& one) {
+                    prepare_pipeline(run.session, floats->input, one, judge);
+                };
+                methods.push_back(fastest_method(run.session, narrow, "f32", narrow, prepare));
             }
             measure_methods(run, "place", facts, methods);
         });
@@ -222,8 +214,7 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
             prepare_pipeline(run.session, input, one, judge);
             one.cell.counters["node_bytes"] = static_cast<double>(format.box_bytes());
         };
-        methods.push_back(fastest_method(run.session, name, name, "exact"));
-        methods.back().prepare = prepare;
+        methods.push_back(fastest_method(run.session, name, name, "exact", prepare));
     }
     measure_methods(run, "boxes", scene, methods);
 }

@@ -14,9 +14,36 @@
 #include "harness/measure/engine.h"
 #include "harness/measure/frames.h"
 #include "harness/measure/run.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
+
+/// A scene, and those of its frames that an experiment needs on the device.
+///
+/// Without refits that is the first frame. With refits every cell is about the second frame, whose points have moved: its tree
+/// is built over that frame, or built over the first and refitted.
+struct Frames {
+    Scene scene;
+    Input now;     ///< the frame that cells are about
+    Input before;  ///< the frame that trees are refitted from
+
+    /// Reads the scene of this name, tells its facts and uploads the frames as one object. Blocks until done. Throws what load_scene
+    /// throws, and Unavailable if a refit is asked for and there is no second frame.
+    void load(Session& session, const Experiment& experiment, SceneFacts& facts)
+    {
+        scene = scene_called(facts.name, experiment.may_stand_in, session.scenes());
+        const std::size_t frame = experiment.has(Operation::refit) ? 1 : 0;
+        if (frame >= scene.frames.size())
+            throw Unavailable("a refit needs a second frame, and scene '" + scene.name +
+                              "' has one; bend:" + scene.name + " has two");
+        facts = facts_of(scene, facts.name, frame);
+        scene = in_file_order(std::move(scene));
+        now = upload_frame(session, scene, frame, false);
+        if (frame > 0)
+            before = upload_frame(session, scene, frame - 1, false);
+    }
+};
 
 /// A builder, its last tree and the stages of its first build; of a refit they are empty.
 struct Built {
@@ -31,7 +58,7 @@ void prepare(Session& session, const Experiment& experiment, const Frames& frame
              const NodeCosts& costs, Cell& cell, Built& built)
 {
     const bool refits = cell.operation == Operation::refit;
-    const Input& first = refits ? frames.before() : frames.now();
+    const Input& first = refits ? frames.before : frames.now;
     const std::size_t triangles = first.triangle_count();
     require_host_memory("checking the tree", check_bytes(triangles));
     // The reference builds while the builder compiles and builds for the first time.
@@ -56,16 +83,16 @@ void prepare(Session& session, const Experiment& experiment, const Frames& frame
     if (refits) {
         session.refit_once(builder, first, &built.tree);  // the same points: nothing may change
         cell.check = check_again(*built.tree, first, std::move(cell.check));
-        session.refit_once(builder, frames.now(), &built.tree);
+        session.refit_once(builder, frames.now, &built.tree);
         const HostTree before = std::exchange(tree, built.tree->to_host_tree());
-        cell.check = check_refit(tree, before, frames.now(), std::move(cell.check));
+        cell.check = check_refit(tree, before, frames.now, std::move(cell.check));
     } else if (experiment.start == Start::from_sorted_leaves) {
         session.build_once(builder, first, experiment.start, &built.tree);
         cell.check = check_again(*built.tree, first, std::move(cell.check));
     }
     count_quality(cell, tree, costs);
     if (experiment.quality)
-        count_end_point_overlap(cell, tree, frames.now().points, frames.now().faces, costs);
+        count_end_point_overlap(cell, tree, frames.now.points, frames.now.faces, costs);
     else
         cell.left_out.try_emplace("epo", "not asked for: --epo");
     const Footprint footprint = builder.reserved();
@@ -94,21 +121,15 @@ void Run::scene(const Experiment& experiment, const std::string& name,
                       experiment.sampling.caches.size()))
         return;
     Frames frames;
-    Cell empty;
-    empty.experiment = experiment.name;
-    empty.scene.name = name;
+    Cell empty{.experiment = experiment.name, .scene = {.name = name}};
     std::string no_scene;
-    const auto load = [&] {
-        frames.load(experiment, name, session_.scenes());
-        empty.scene = frames.facts();
-        frames.upload(session_);
-    };
+    const auto load = [&] { frames.load(session_, experiment, empty.scene); };
     if (experiment.needs_scene)
         load();
     else
         no_scene = reason_of_failure(load);
 
-    Oracle oracle(session_, frames.now()), oracle_before(session_, frames.before());
+    Oracle oracle(session_, frames.now), oracle_before(session_, frames.before);
     const Note note = [&](const std::string& what, double share) {
         progress.note(experiment.name + ": " + name + ", " + what, share);
     };
@@ -129,7 +150,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         if (why.empty() && measurement.cell.operation == Operation::build)
             why = contest.why_not(measurement.cell);
         if (!no_scene.empty() || !why.empty()) {
-            engine.refuse(measurement, no_scene.empty() ? status : Cell::Status::skipped,
+            engine.refuse(measurement.cell, no_scene.empty() ? status : Cell::Status::skipped,
                           no_scene.empty() ? why : no_scene);
             continue;
         }
@@ -142,16 +163,18 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         });
         measurement.once = [&, k] {
             return measurement.cell.operation == Operation::refit
-                       ? session_.refit_once(*built[k].builder, frames.now(), &built[k].tree)
-                       : session_.build_once(*built[k].builder, frames.now(), experiment.start,
+                       ? session_.refit_once(*built[k].builder, frames.now, &built[k].tree)
+                       : session_.build_once(*built[k].builder, frames.now, experiment.start,
                                              &built[k].tree);
         };
-        measurement.upload = [&] { frames.upload_points(session_); };
+        measurement.upload = [&] {
+            frames.now.device_points.upload(session_.queue().cl(), frames.now.points);
+        };
         if (entry.outside != nullptr)
             measurement.no_copies = no_copies_of_outside;
         measurement.judge_again = [&, k] {
             measurement.cell.check =
-                check_again(*built[k].tree, frames.now(), std::move(measurement.cell.check));
+                check_again(*built[k].tree, frames.now, std::move(measurement.cell.check));
         };
         if (experiment.start == Start::from_triangles)
             measurement.stages_before = built[k].first;

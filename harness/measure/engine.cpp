@@ -51,21 +51,21 @@ std::int64_t host_ns(const std::function<void()>& work)
     return ns;
 }
 
-void Engine::refuse(Measurement& measurement, Cell::Status status, std::string reason)
+void Engine::refuse(Cell& cell, Cell::Status status, std::string reason)
 {
     session_.renew_queue();
-    measurement.cell.status = status;
-    measurement.cell.reason = std::move(reason);
-    measurement.cell.samples.clear();
+    cell.status = status;
+    cell.reason = std::move(reason);
+    cell.samples.clear();
 }
 
 void Engine::prepare(Measurement& measurement, const std::function<void()>& work)
 {
     if (std::string why = watchdog::given_up(measurement.number); !why.empty())
-        return refuse(measurement, Cell::Status::failed, std::move(why));
+        return refuse(measurement.cell, Cell::Status::failed, std::move(why));
     if (const auto& is_wanted = session_.other_sampler.is_wanted;
         is_wanted && !is_wanted(measurement.cell))
-        return refuse(measurement, Cell::Status::skipped, "not wanted");
+        return refuse(measurement.cell, Cell::Status::skipped, "not wanted");
     const watchdog::CellScope scope(measurement.number);
     measurement.cell.warm_up = plan_.warm_up;
     const std::int64_t compiled_ns = session_.programs().compile_ns();
@@ -73,7 +73,7 @@ void Engine::prepare(Measurement& measurement, const std::function<void()>& work
     std::string failure = reason_of_failure(work, &cannot_be);
     measurement.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
     if (!failure.empty())
-        refuse(measurement, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
+        refuse(measurement.cell, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                std::move(failure));
 }
 
@@ -120,7 +120,7 @@ std::vector<StageTime> Engine::run_once(Measurement& measurement)
     });
     session_.set_caches(Caches::hot);
     if (!failure.empty())
-        refuse(measurement, Cell::Status::failed, std::move(failure));
+        refuse(measurement.cell, Cell::Status::failed, std::move(failure));
     return stages;
 }
 
@@ -191,7 +191,7 @@ std::vector<Cell> Engine::sample(std::span<Measurement> measurements)
         const bool was_sampled = one.is_ready() && !other_sampler;
         if (was_sampled && one.judge_again && one.cell.sampling.stopped != Stopped::beaten)
             if (std::string failure = reason_of_failure(one.judge_again); !failure.empty())
-                refuse(one, Cell::Status::failed, std::move(failure));
+                refuse(one.cell, Cell::Status::failed, std::move(failure));
         for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
             Cell& cell = cells.emplace_back(one.cell);
             if (!was_sampled || cell.status != Cell::Status::measured)
@@ -241,7 +241,7 @@ void Engine::sample(std::span<Measurement> measurements, Caches caches, std::spa
         cell.sampling = one.cell.sampling = facts_of(taken[k].stopped, caches);
         cell.sampling.dropped = taken[k].dropped;
         if (!taken[k].failure.empty())
-            refuse(one, Cell::Status::failed, std::move(taken[k].failure));
+            refuse(one.cell, Cell::Status::failed, std::move(taken[k].failure));
     }
 }
 

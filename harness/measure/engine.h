@@ -65,7 +65,7 @@ public:
     std::vector<Cell> sample(std::span<Measurement> measurements);
 
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
-    void refuse(Measurement& measurement, Cell::Status status, std::string reason);
+    void refuse(Cell& cell, Cell::Status status, std::string reason);
 
 private:
     void sample(std::span<Measurement> measurements, Caches caches, std::span<Cell> cells);

@@ -78,7 +78,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             if (one.reason = frame.contest.why_not(cell); !one.reason.empty())
                 one.status = Cell::Status::skipped;
         if (one.status != Cell::Status::measured) {
-            engine.refuse(measurement, one.status, one.reason);
+            engine.refuse(measurement.cell, one.status, one.reason);
             continue;
         }
         if (frame.note)

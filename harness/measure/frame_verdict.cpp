@@ -8,7 +8,6 @@
 #include "collide/oracles/exact_reference.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
-#include "harness/judge/pair_counts.h"
 #include "harness/measure/device_verdict.h"
 
 namespace bvhbench {
@@ -65,20 +64,10 @@ private:
 
 namespace {
 
-/// Counts what is missed and what is false, and writes both to the cell's counters. `of` is part of their names.
-Differences count_errors(const PairList& found, const PairList& expected, const std::string& of,
-                         Cell& cell)
-{
-    const Differences wrong = differences(found, expected);
-    cell.counters["missed_" + of + "count"] = static_cast<double>(wrong.missed);
-    cell.counters["false_" + of + "count"] = static_cast<double>(wrong.false_ones);
-    return wrong;
-}
-
 /// Counts the errors of a narrow phase that is not exact. One that misses nothing may find what is none.
 void check_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
 {
-    const Differences wrong = count_errors(found, expected, "", cell);
+    const Differences wrong = count_errors(found, expected, cell);
     if (!may_miss && (wrong.missed > 0 || found.surplus() > 0))
         cell.check.find_wrong(std::to_string(found.surplus()) + " contacts were found twice, " +
                               std::to_string(wrong.missed) + " missed");
@@ -91,7 +80,7 @@ void check_inexact(const PairList& found, const PairList& expected, bool may_mis
 /// `counted` if the pairs are the answer, and stays if they are candidates for a narrow phase.
 void check_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
 {
-    const Differences wrong = count_errors(found, expected, "pairs_", cell);
+    const Differences wrong = count_errors(found, expected, cell, "pairs_");
     if (found.surplus() > 0 || wrong.missed > 0) {
         cell.check.find_wrong(std::to_string(found.surplus()) + " pairs were found twice, " +
                               std::to_string(wrong.missed) + " missed");
@@ -102,6 +91,15 @@ void check_candidates(const PairList& found, const PairList& expected, bool is_a
 }
 
 }  // namespace
+
+Differences count_errors(const PairList& found, const PairList& right, Cell& cell,
+                         const std::string& of)
+{
+    const Differences wrong = differences(found, right);
+    cell.counters["missed_" + of + "count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_" + of + "count"] = static_cast<double>(wrong.false_ones);
+    return wrong;
+}
 
 void FrameVerdict::require_memory(const ColliderChoice& choice)
 {
@@ -116,11 +114,10 @@ void FrameVerdict::require_memory(const ColliderChoice& choice)
 
 void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
 {
-    cell.check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
+    cell.check = {.verdict = Check::Verdict::agrees};
     found = {.scene = found.scene};
     cell.within_distance = cell.collider.distance;
-    if (pipeline.has_pairs() &&
-        !cell.collider.distance)  // else they are candidates of padded boxes
+    if (pipeline.has_pairs() && !cell.collider.distance)  // else they are of padded boxes
         judge_pairs(pipeline, cell, found);
     if (cell.collider.first)
         judge_first(pipeline, cell, found);
@@ -171,7 +168,7 @@ void FrameVerdict::judge_pairs_by_list(const Pipeline& pipeline, const Expected&
     else
         pairs.add_differences("pairs", cell.check);
     if (!cell.features.pairs.empty())
-        count_errors(pairs.list(), expected.list().list, "", cell);
+        count_errors(pairs.list(), expected.list().list, cell);
     found.pairs = pairs.in_file(cell.check.pairs_hash);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "harness/judge/pair_counts.h"
 #include "harness/measure/collide.h"
 #include "harness/measure/frame_oracle.h"
 
@@ -40,5 +41,10 @@ private:
     const FrameOfPipelines& frame_;
     FrameOracle oracle_;
 };
+
+/// Compares what was found with what is right. Returns what is missed and what is false, and writes both to the cell's counters
+/// missed_count and false_count, of whose names `of` is a part.
+Differences count_errors(const PairList& found, const PairList& right, Cell& cell,
+                         const std::string& of = {});
 
 }  // namespace bvhbench

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/frames.h"
 
-#include "geometry/error.h"
-#include "scenes/face_order.h"
-
 namespace bvhbench {
 
 Scene scene_called(const std::string& name, bool may_stand_in, const SceneLibrary& library)
@@ -35,30 +32,6 @@ Input upload_frame(Session& session, const Scene& scene, std::size_t frame, bool
         if (by_objects)
             objects.push_back({object.first_face, object.face_count});
     return upload(session.device(), session.queue(), scene.frames[frame], scene.faces, objects);
-}
-
-void Frames::load(const Experiment& experiment, const std::string& name,
-                  const SceneLibrary& library)
-{
-    scene_ = scene_called(name, experiment.may_stand_in, library);
-    frame_ = experiment.has(Operation::refit) ? 1 : 0;
-    if (frame_ >= scene_.frames.size())
-        throw Unavailable("a refit needs a second frame, and scene '" + scene_.name +
-                          "' has one; bend:" + scene_.name + " has two");
-    facts_ = facts_of(scene_, name, frame_);
-}
-
-void Frames::upload(Session& session)
-{
-    scene_ = in_file_order(std::move(scene_));
-    now_ = upload_frame(session, scene_, frame_, false);
-    if (frame_ > 0)
-        before_ = upload_frame(session, scene_, frame_ - 1, false);
-}
-
-void Frames::upload_points(Session& session)
-{
-    now_.device_points.upload(session.queue().cl(), now_.points);
 }
 
 }  // namespace bvhbench
