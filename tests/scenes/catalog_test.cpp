@@ -75,7 +75,9 @@ TEST(Catalog, ListsWhetherAFileIsThere)
     EXPECT_TRUE(contains(summary(), "found: " + path));
 }
 
-TEST(DataSets, OfTableOneHaveStandInsOfTheSameCount)
+using DataSets = InFolder;
+
+TEST_F(DataSets, OfTableOneHaveStandInsOfTheSameCount)
 {
     for (const char* name : {"bunny", "erato", "dragon", "buddha", "hairball"}) {
         const ManifestEntry& set = *manifest_entry(name);
@@ -88,9 +90,8 @@ TEST(DataSets, OfTableOneHaveStandInsOfTheSameCount)
     EXPECT_THROW(load_or_stand_in("nothing", {}), BadUsage);
 }
 
-TEST(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
+TEST_F(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
 {
-    const Folder folder;
     folder.file("bunny/bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const SceneLibrary library{folder.path()};
     EXPECT_EQ(load_or_stand_in("bunny", library).stand_in_for, "bunny");
@@ -102,7 +103,7 @@ TEST(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
     EXPECT_THROW(load_or_stand_in("bunny", library), Unavailable);
 }
 
-TEST(DataSets, ThatAreNotThereSayWhereToGetThem)
+TEST_F(DataSets, ThatAreNotThereSayWhereToGetThem)
 {
     EXPECT_TRUE(
         contains(refusal("erato"), "Unavailable: data set 'erato' is not in the data folder ''"));
@@ -110,9 +111,8 @@ TEST(DataSets, ThatAreNotThereSayWhereToGetThem)
     EXPECT_THROW(load_or_stand_in("unc_nbody", {}), Unavailable);
 }
 
-TEST(DataSets, ThatAreSequencesHaveTheNearestThereIsForStandIn)
+TEST_F(DataSets, ThatAreSequencesHaveTheNearestThereIsForStandIn)
 {
-    const Folder folder;
     const SceneLibrary library{folder.path()};
     const Scene generated = load_or_stand_in("n-body", library);
     EXPECT_EQ(generated.stand_in_for, "n-body");
@@ -126,7 +126,7 @@ TEST(DataSets, ThatAreSequencesHaveTheNearestThereIsForStandIn)
     EXPECT_EQ(real.name, "unc_nbody");
 }
 
-TEST(DataSets, OfTablesTwoAndThreeEndInAStandInOfAsManyObjects)
+TEST_F(DataSets, OfTablesTwoAndThreeEndInAStandInOfAsManyObjects)
 {
     const std::pair<const char*, std::size_t> tables[] = {
         {"cloth-ball", 2}, {"funnel", 4},  {"n-body", 305},  {"flamenco", 10},

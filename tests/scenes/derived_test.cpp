@@ -51,7 +51,9 @@ std::size_t open_sides(const Scene& scene)
     return open;
 }
 
-TEST(Refine, GivesExactlyTheTrianglesAskedFor)
+using Refine = InFolder;
+
+TEST_F(Refine, GivesExactlyTheTrianglesAskedFor)
 {
     for (const std::string base : {"sphere:20", "torus:7", "soup:3", "grid:1"}) {
         const uint least = load_scene(base, {}).triangle_count();
@@ -62,23 +64,22 @@ TEST(Refine, GivesExactlyTheTrianglesAskedFor)
     }
 }
 
-TEST(Refine, CutsLongestEdgesFirst)
+TEST_F(Refine, CutsLongestEdgesFirst)
 {
     const double before = longest_edge(load_scene("soup:100", {}));
     EXPECT_LT(longest_edge(load_scene("refine:soup:100:3000", {})), before / 3);
 }
 
-TEST(Refine, LeavesAClosedSurfaceClosedOrOneVertexOnASide)
+TEST_F(Refine, LeavesAClosedSurfaceClosedOrOneVertexOnASide)
 {
     for (const uint count : {102u, 1000u, 5000u})
         EXPECT_EQ(open_sides(load_scene("refine:sphere:100:" + std::to_string(count), {})), 0u);
     EXPECT_EQ(open_sides(load_scene("refine:sphere:100:1001", {})), 3u);  // a long side, two halves
 }
 
-TEST(Refine, CutsTrianglesOfTheSameCornersAlike)
+TEST_F(Refine, CutsTrianglesOfTheSameCornersAlike)
 {
     // Two tetrahedra in the same place, with shared vertices: every edge has four triangles.
-    const Folder folder;
     const std::string twice =
         folder.file("twice.obj",
                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"
@@ -92,9 +93,8 @@ TEST(Refine, CutsTrianglesOfTheSameCornersAlike)
         ASSERT_EQ(count, 2);
 }
 
-TEST(Refine, EndsOnTrianglesWithoutLength)
+TEST_F(Refine, EndsOnTrianglesWithoutLength)
 {
-    const Folder folder;
     const std::string point =
         folder.file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\nf 1 1 1\nf 1 2 1\n");
     EXPECT_EQ(load_scene("refine:" + point + ":64", {}).triangle_count(), 64u);
@@ -102,9 +102,8 @@ TEST(Refine, EndsOnTrianglesWithoutLength)
     EXPECT_EQ(load_scene("refine:" + needle + ":64", {}).triangle_count(), 64u);
 }
 
-TEST(Refine, KeepsObjectsTogether)
+TEST_F(Refine, KeepsObjectsTogether)
 {
-    const Folder folder;
     const std::string two = folder.file("two.obj",
                                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 9 0 0\nv 5 4 0\n"
                                         "o small\nf 1 2 3\no large\nf 4 5 6\n");
@@ -116,9 +115,8 @@ TEST(Refine, KeepsObjectsTogether)
     EXPECT_GT(fine.objects[1].face_count, fine.objects[0].face_count);
 }
 
-TEST(Refine, CutsAllFramesAlike)
+TEST_F(Refine, CutsAllFramesAlike)
 {
-    const Folder folder;
     folder.file("fall/f1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.file("fall/f2.obj", "v 0 0 5\nv 2 0 5\nv 0 1 5\nf 1 2 3\n");
     const Scene fine = load_scene("refine:" + (folder.path() / "fall").string() + ":50", {});
@@ -127,7 +125,7 @@ TEST(Refine, CutsAllFramesAlike)
     EXPECT_NEAR(area(fine, fine.objects[0], 1), 1.0, 1e-6);
 }
 
-TEST(Refine, TakesNoTrianglesAway)
+TEST_F(Refine, TakesNoTrianglesAway)
 {
     EXPECT_TRUE(contains(refusal("refine:torus:100:99"),
                          "BadUsage: 'torus:100' has 100 triangles already"));

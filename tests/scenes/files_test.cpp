@@ -49,48 +49,42 @@ std::string binary_stl()
     return bytes;
 }
 
+using Files = InFolder;
+
 // kinds_test reads triangles in every spelling.
-TEST(Files, OfAnyCaseMayHaveFacesOfMoreCorners)
+TEST_F(Files, OfAnyCaseMayHaveFacesOfMoreCorners)
 {
-    const Folder folder;
-    const Scene scene = load_scene(
-        folder.file("a.OFF", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0 # c\n\n0 1 0\n4 0 1 2 3 255 0 0\n"),
-        {});
+    const Scene scene =
+        loaded("a.OFF", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0 # c\n\n0 1 0\n4 0 1 2 3 255 0 0\n");
     ASSERT_EQ(scene.triangle_count(), 2u);
     EXPECT_EQ(scene.faces[1].b, 2u);
     EXPECT_EQ(scene.faces[1].c, 3u);
 }
 
-TEST(Files, OfStlNameTheirSolids)
+TEST_F(Files, OfStlNameTheirSolids)
 {
-    const Folder folder;
     const std::string facet =
         "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
         "0\nendloop\nendfacet\n";
     const Scene scene =
-        load_scene(folder.file("b.stl", "solid one\n" + facet + "endsolid\nsolid two\n" + facet +
-                                            "endsolid\n"),
-                   {});
+        loaded("b.stl", "solid one\n" + facet + "endsolid\nsolid two\n" + facet + "endsolid\n");
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].name, "two");
 }
 
-TEST(Files, OfPlyHaveObjectsByObjectId)
+TEST_F(Files, OfPlyHaveObjectsByObjectId)
 {
-    const Folder folder;
     const std::string header = std::string("ply\nformat ascii 1.0\n") + ply_header +
                                "property ushort object_id\nend_header\n";
     const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
-    const Scene two =
-        load_scene(folder.file("two.ply", header + points + "3 0 1 2 4\n4 0 1 2 3 7\n"), {});
+    const Scene two = loaded("two.ply", header + points + "3 0 1 2 4\n4 0 1 2 3 7\n");
     ASSERT_EQ(two.objects.size(), 2u);
     EXPECT_EQ(two.objects[0].face_count, 1u);
     EXPECT_EQ(two.objects[1].first_face, 1u);
     EXPECT_EQ(two.objects[1].face_count, 2u);
     EXPECT_TRUE(two.file_faces.empty());
     EXPECT_EQ(two.object_ids, (std::vector<std::int64_t>{4, 7}));
-    const Scene mixed =
-        load_scene(folder.file("mixed.ply", header + points + "3 0 1 2 4\n3 0 2 3 3\n"), {});
+    const Scene mixed = loaded("mixed.ply", header + points + "3 0 1 2 4\n3 0 2 3 3\n");
     ASSERT_EQ(mixed.objects.size(), 2u);
     EXPECT_EQ(mixed.object_ids, (std::vector<std::int64_t>{3, 4}));
     EXPECT_EQ(mixed.file_faces, (std::vector<uint>{1, 0}));
@@ -98,22 +92,19 @@ TEST(Files, OfPlyHaveObjectsByObjectId)
     EXPECT_EQ(mixed.faces[0].b, 2u);
 }
 
-TEST(Files, LoseNegativeZerosAndKeepEverythingElse)
+TEST_F(Files, LoseNegativeZerosAndKeepEverythingElse)
 {
-    const Folder folder;
-    const Scene scene = load_scene(
-        folder.file("a.obj", "v -0 -0.0 1e-45\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\nf 1 2 3\n"), {});
+    const Scene scene =
+        loaded("a.obj", "v -0 -0.0 1e-45\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\nf 1 2 3\n");
     EXPECT_FALSE(std::signbit(scene.frames[0][0].x));
     EXPECT_EQ(scene.frames[0][0].z, 1e-45f);
     EXPECT_EQ(scene.frames[0].size(), 3u);  // equal vertices are not merged
     EXPECT_EQ(scene.triangle_count(), 3u);  // degenerate and repeated triangles are kept
 }
 
-TEST(Files, PassOverLinesAndPoints)
+TEST_F(Files, PassOverLinesAndPoints)
 {
-    const Folder folder;
-    EXPECT_EQ(load_scene(folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\np 1\nf 1 2 3"), {})
-                  .triangle_count(),
+    EXPECT_EQ(loaded("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\np 1\nf 1 2 3").triangle_count(),
               1u);
     EXPECT_TRUE(
         contains(refusal(folder.file("b.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), "has no triangles"));
@@ -266,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(Each, BadFile, testing::ValuesIn(bad_files), [](const a
     return name;
 });
 
-TEST(Files, ThatAreNotThereAreNamed)
+TEST_F(Files, ThatAreNotThereAreNamed)
 {
     EXPECT_EQ(refusal("/nowhere/a.obj"), "Unavailable: there is no file /nowhere/a.obj");
     EXPECT_EQ(refusal("/dev/null"), "Unavailable: /dev/null is not a file");

@@ -45,6 +45,20 @@ private:
     std::filesystem::path path_;
 };
 
+/// Tests with a temporary folder.
+class InFolder : public testing::Test {
+protected:
+    /// Loads a file that it writes.
+    Scene loaded(const std::string& name, std::string_view bytes) const
+    {
+        return load_scene(folder.file(name, bytes), {});
+    }
+
+    std::string path() const { return folder.path().string(); }
+
+    const Folder folder;
+};
+
 /// Returns the message with which loading `text` is refused, after its class: "BadUsage: no scene is called ...".
 inline std::string refusal(std::string_view text, const SceneLibrary& library = {})
 {

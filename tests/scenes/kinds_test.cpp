@@ -153,9 +153,10 @@ std::string tetrahedra(const std::string& nodes, unsigned vertices = 4, unsigned
            base64 + "\"}]}";
 }
 
-TEST(Gltf, OfNodesFarAwayIsRecentredInDoubles)
+using Gltf = InFolder;
+
+TEST_F(Gltf, OfNodesFarAwayIsRecentredInDoubles)
 {
-    const Folder folder;
     const auto gap = [&](const char* first, const char* second) {
         Listening library;
         const Scene scene = load_scene(
@@ -174,13 +175,11 @@ TEST(Gltf, OfNodesFarAwayIsRecentredInDoubles)
                 1e-6);
 }
 
-TEST(Gltf, KeepsTheVerticesThatTrianglesName)
+TEST_F(Gltf, KeepsTheVerticesThatTrianglesName)
 {
-    const Folder folder;
-    const Scene scene = load_scene(
-        folder.file("many.gltf", tetrahedra(R"({"mesh": 0}, {"mesh": 0, "translation": [2, 0, 0]})",
-                                            60000, 500)),
-        {});
+    const Scene scene =
+        loaded("many.gltf",
+               tetrahedra(R"({"mesh": 0}, {"mesh": 0, "translation": [2, 0, 0]})", 60000, 500));
     EXPECT_EQ(scene.faces.size(), 2u * 500u * 4u);
     EXPECT_EQ(scene.frames[0].size(), 8u);  // the primitives of an instance share them
     EXPECT_EQ(scene.objects.size(), 2u);

@@ -24,9 +24,10 @@ std::string said_of(const std::filesystem::path& path)
     return refusal_of([&] { read_queries(path); });
 }
 
-TEST(MovingQueries, AreReadByFolderAndKind)
+using MovingQueries = InFolder;
+
+TEST_F(MovingQueries, AreReadByFolderAndKind)
 {
-    const Folder folder;
     folder.file("spikes/edge-edge/a.csv", query(",1") + query(",0"));
     folder.file("spikes/edge-edge/b.csv", query(",0"));
     // 2^-60 + 2^-90 is no float.
@@ -56,9 +57,8 @@ TEST(MovingQueries, AreReadByFolderAndKind)
     EXPECT_EQ(read_queries(folder.path() / "rod_queries_12vf.csv").size(), 1u);
 }
 
-TEST(MovingQueries, AreRefusedInPart)
+TEST_F(MovingQueries, AreRefusedInPart)
 {
-    const Folder folder;
     const auto said = [&](const std::string& name, const std::string& text) {
         return said_of(folder.file(name, text));
     };
@@ -67,25 +67,21 @@ TEST(MovingQueries, AreRefusedInPart)
     EXPECT_TRUE(
         said("b_vf.csv", query("", "1,3"))
             .ends_with("line 1: '1/3' is no double: a whole number divided by a power of two"));
-    EXPECT_TRUE(said("c_vf.csv", query("", "9007199254740993,1")).find("is no double") !=
-                std::string::npos);
-    EXPECT_TRUE(said("d_vf.csv", query("", "1,0")).find("is no double") != std::string::npos);
+    EXPECT_TRUE(contains(said("c_vf.csv", query("", "9007199254740993,1")), "is no double"));
+    EXPECT_TRUE(contains(said("d_vf.csv", query("", "1,0")), "is no double"));
     EXPECT_TRUE(said("e_vf.csv", "1,1,1\n").ends_with("line 1: there are 3 numbers, not 6 or 7"));
     EXPECT_TRUE(
         said("f_vf.csv", query(",2")).ends_with("line 1: the seventh number is '2', not 0 or 1"));
-    EXPECT_TRUE(said("g_vf.csv", query(",1") + query(""))
-                    .find("line 9: there are 6 numbers, and 7 in the lines before") !=
-                std::string::npos);
+    EXPECT_TRUE(contains(said("g_vf.csv", query(",1") + query("")),
+                         "line 9: there are 6 numbers, and 7 in the lines before"));
     std::string two_answers = query(",1");
     two_answers[two_answers.size() - 2] = '0';
-    EXPECT_TRUE(said("k_vf.csv", two_answers).find("line 8: the seventh number is another") !=
-                std::string::npos);
-    EXPECT_TRUE(said("h.csv", query("")).find("ends in vf.csv or ee.csv") != std::string::npos);
+    EXPECT_TRUE(contains(said("k_vf.csv", two_answers), "line 8: the seventh number is another"));
+    EXPECT_TRUE(contains(said("h.csv", query("")), "ends in vf.csv or ee.csv"));
     folder.file("i_queries_vf.csv", query(""));
     folder.file("truth/i_vf.json", "[true, true]");
     EXPECT_TRUE(
-        said_of(folder.path() / "i_queries_vf.csv").find("no list of 1 times true or false") !=
-        std::string::npos);
+        contains(said_of(folder.path() / "i_queries_vf.csv"), "no list of 1 times true or false"));
     std::filesystem::create_directories(folder.path() / "empty");
     EXPECT_TRUE(said_of(folder.path() / "empty").ends_with("there are no files of queries"));
     EXPECT_FALSE(said_of(folder.path() / "missing_vf.csv").empty());

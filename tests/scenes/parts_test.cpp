@@ -50,9 +50,10 @@ struct Strip {
     }
 };
 
-TEST(Parts, OfABinaryPlyAreThoseOfTheWhole)
+using Parts = InFolder;
+
+TEST_F(Parts, OfABinaryPlyAreThoseOfTheWhole)
 {
-    const Folder folder;
     for (const uint triangles : {1u, 2u, 100u}) {
         const std::string path = folder.file("strip.ply", Strip{triangles}.bytes());
         for (const uint parts : {1u, 3u, 7u})
@@ -60,9 +61,8 @@ TEST(Parts, OfABinaryPlyAreThoseOfTheWhole)
     }
 }
 
-TEST(Parts, OfFramesHaveThePointsOfTheFirst)
+TEST_F(Parts, OfFramesHaveThePointsOfTheFirst)
 {
-    const Folder folder;
     const uint points = 102;
     Strip strip;
     strip.coordinate = "double";  // not read
@@ -73,12 +73,11 @@ TEST(Parts, OfFramesHaveThePointsOfTheFirst)
     folder.file("frames.f32", frames);
     hold_parts(folder.path(), 4, true);
     folder.file("frames.f32", frames + "x");
-    EXPECT_FALSE(load_part(folder.path().string(), 0, 2));
+    EXPECT_FALSE(load_part(path(), 0, 2));
 }
 
-TEST(Parts, AreNotReadWhereRecordsDiffer)
+TEST_F(Parts, AreNotReadWhereRecordsDiffer)
 {
-    const Folder folder;
     const std::string good = Strip{}.bytes();
     Strip doubles, big;
     doubles.coordinate = "double";
@@ -88,12 +87,11 @@ TEST(Parts, AreNotReadWhereRecordsDiffer)
         EXPECT_FALSE(load_part(folder.file("a.ply", bytes), 0, 2));
     EXPECT_TRUE(load_part(folder.file("a.ply", good), 0, 2));
     EXPECT_FALSE(load_part(folder.file("a.obj", "v 0 0 0\n"), 0, 2));
-    EXPECT_FALSE(load_part(folder.path().string() + "/none.ply", 0, 2));
+    EXPECT_FALSE(load_part(path() + "/none.ply", 0, 2));
 }
 
-TEST(Parts, SayWhatIsWrongWithThem)
+TEST_F(Parts, SayWhatIsWrongWithThem)
 {
-    const Folder folder;
     const auto refusal = [&](const Strip& strip, uint part) {
         return refusal_of([&] { load_part(folder.file("b.ply", strip.bytes()), part, 2); });
     };

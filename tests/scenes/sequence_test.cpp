@@ -22,27 +22,27 @@ std::string frame_bytes(std::size_t frames)
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
 }
 
-TEST(Sequence, IsAMeshAndItsFrames)
+using Sequence = InFolder;
+
+TEST_F(Sequence, IsAMeshAndItsFrames)
 {
-    const Folder folder;
     folder.file("mesh.ply", mesh);
     folder.file("frames.f32", frame_bytes(3));
-    const Scene scene = load_scene(folder.path().string(), {});
+    const Scene scene = load_scene(path(), {});
     ASSERT_EQ(scene.frames.size(), 3u);
     EXPECT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.frames[2][0].x, 36.0f);
 }
 
-TEST(Sequence, MustHoldWholeFrames)
+TEST_F(Sequence, MustHoldWholeFrames)
 {
-    const Folder folder;
     folder.file("mesh.ply", mesh);
-    EXPECT_TRUE(contains(refusal(folder.path().string()), "frames.f32"));
+    EXPECT_TRUE(contains(refusal(path()), "frames.f32"));
     folder.file("frames.f32", frame_bytes(2).substr(1));
-    EXPECT_TRUE(contains(refusal(folder.path().string()),
+    EXPECT_TRUE(contains(refusal(path()),
                          "frames.f32 has 143 bytes, no whole number of frames of 6 vertices"));
     folder.file("frames.f32", "");
-    EXPECT_TRUE(contains(refusal(folder.path().string()), "frames.f32 has 0 bytes"));
+    EXPECT_TRUE(contains(refusal(path()), "frames.f32 has 0 bytes"));
 }
 
 /// Writes a sequence of two frames with the given meta.json. Returns the folder.
@@ -64,9 +64,8 @@ std::string plain_mesh()
     return plain;
 }
 
-TEST(Sequence, TakesNamesAndLabelsFromItsMeta)
+TEST_F(Sequence, TakesNamesAndLabelsFromItsMeta)
 {
-    const Folder folder;
     const std::string path = with_meta(folder, R"({"frames": 2, "vertices": 6, "triangles": 2,
 "frame_labels": [5, "late"], "anything": {"else": [1, 2.5]},
 "objects": [{"name": "cloth", "face_first": 0, "face_count": 1, "vertex_first": 0},
@@ -79,31 +78,29 @@ TEST(Sequence, TakesNamesAndLabelsFromItsMeta)
     EXPECT_EQ(load_scene(with_meta(folder, "{}"), {}).objects[1].name, "object 1");
 }
 
-TEST(Sequence, TakesObjectsFromItsMetaWhereTheMeshNamesNone)
+TEST_F(Sequence, TakesObjectsFromItsMetaWhereTheMeshNamesNone)
 {
-    const Folder folder;
     folder.file("mesh.ply", plain_mesh());
     folder.file("frames.f32", frame_bytes(2));
-    EXPECT_EQ(load_scene(folder.path().string(), {}).objects.size(), 1u);
-    EXPECT_FALSE(load_scene(folder.path().string(), {}).has_meshes);
+    EXPECT_EQ(load_scene(path(), {}).objects.size(), 1u);
+    EXPECT_FALSE(load_scene(path(), {}).has_meshes);
     const auto table = [](const char* second) {
         return std::string(R"({"objects": [{"name": "a", "face_first": 0, "face_count": 1}, )"
                            R"({"name": "b", "face_first": )") +
                second + "}]}";
     };
     folder.file("meta.json", table(R"(1, "face_count": 1)"));
-    EXPECT_EQ(load_scene(folder.path().string(), {}).objects.size(), 2u);
+    EXPECT_EQ(load_scene(path(), {}).objects.size(), 2u);
     for (const char* wrong :
          {R"(0, "face_count": 1)", R"(1, "face_count": 2)", R"(1, "face_count": 0)"}) {
         folder.file("meta.json", table(wrong));
-        EXPECT_TRUE(contains(refusal(folder.path().string()),
+        EXPECT_TRUE(contains(refusal(path()),
                              "meta.json has objects that do not cover the mesh's triangles"));
     }
 }
 
-TEST(Sequence, LeavesTheObjectOfEachTriangleToTheMeshWhereItsMetaNamesNoFirst)
+TEST_F(Sequence, LeavesTheObjectOfEachTriangleToTheMeshWhereItsMetaNamesNoFirst)
 {
-    const Folder folder;
     std::string mixed = mesh;  // the object of id 1 comes first, and 0 behind it
     mixed.replace(mixed.find("3 0 1 2 0"), 9, "3 0 1 2 1");
     mixed.replace(mixed.find("3 3 4 5 1"), 9, "3 3 4 5 0");
@@ -114,7 +111,7 @@ TEST(Sequence, LeavesTheObjectOfEachTriangleToTheMeshWhereItsMetaNamesNoFirst)
                     R"({"objects": [{"id": 0, "name": "a", "face_first": null, "face_count": 1},
 {"name": "b", "face_count": )" +
                         second + "}]}");
-        return load_scene(folder.path().string(), {});
+        return load_scene(path(), {});
     };
     const Scene scene = loaded("1");
     EXPECT_EQ(scene.objects[0].name, "a");
@@ -122,13 +119,11 @@ TEST(Sequence, LeavesTheObjectOfEachTriangleToTheMeshWhereItsMetaNamesNoFirst)
     EXPECT_THROW(loaded("2"), Unavailable);
     EXPECT_THROW(loaded(R"(1, "id": 5)"), Unavailable);
     folder.file("mesh.ply", plain_mesh());
-    EXPECT_TRUE(contains(refusal(folder.path().string()),
-                         "without a face_first, and the mesh has no object_id"));
+    EXPECT_TRUE(contains(refusal(path()), "without a face_first, and the mesh has no object_id"));
 }
 
-TEST(Sequence, RefusesAMetaThatDisagrees)
+TEST_F(Sequence, RefusesAMetaThatDisagrees)
 {
-    const Folder folder;
     EXPECT_EQ(refusal(with_meta(folder, "{}")), "loaded");
     const std::pair<const char*, const char*> wrong[] = {
         {"{", "meta.json is not JSON"},
@@ -156,9 +151,8 @@ TEST(Sequence, RefusesAMetaThatDisagrees)
         EXPECT_TRUE(contains(refusal(with_meta(folder, meta)), message)) << meta;
 }
 
-TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
+TEST_F(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
 {
-    const Folder folder;
     const std::string faces = "f 1 2 3\nf 4 5 6\n";
     const auto points = [](const std::string& z) {
         std::string text = "v 5 0 0\nv 6 0 0\nv 5 1 0\n";
@@ -169,7 +163,7 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     folder.file("cloth10.obj", points("10") + faces);
     folder.file("cloth9.obj", points("9") + faces);
     folder.file("readme1.txt", "not a frame");
-    const Scene scene = load_scene(folder.path().string(), {});
+    const Scene scene = load_scene(path(), {});
     ASSERT_EQ(scene.frames.size(), 2u);
     EXPECT_EQ(scene.frames[0][3].z, 9.0f);  // sorted by number, not by name
     EXPECT_EQ(scene.objects.size(), 2u);
@@ -177,10 +171,10 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     EXPECT_FALSE(scene.has_meshes);  // components were found, but no names
 
     folder.file("cloth11.obj", points("11") + "f 1 3 2\nf 4 5 6\nf 1 2 4\n");
-    EXPECT_TRUE(contains(refusal(folder.path().string()), "cloth11.obj has other triangles than "));
+    EXPECT_TRUE(contains(refusal(path()), "cloth11.obj has other triangles than "));
     SceneLibrary any;
     any.any_topology = true;
-    const Scene changing = load_scene(folder.path().string(), any);
+    const Scene changing = load_scene(path(), any);
     ASSERT_EQ(changing.frame_count(), 3u);
     EXPECT_EQ(changing.with_frame(1).faces.size(), 2u);
     EXPECT_EQ(changing.with_frame(1).frames[0][3].z, 10.0f);
@@ -189,36 +183,31 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     EXPECT_NE(changing.with_frame(2).content_hash, changing.with_frame(1).content_hash);
 }
 
-TEST(Sequence, RefusesATriangleOfAVertexThatIsNotThere)
+TEST_F(Sequence, RefusesATriangleOfAVertexThatIsNotThere)
 {
-    const Folder folder;
     folder.file("f1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-    EXPECT_TRUE(
-        contains(refusal(folder.path().string()), "f1.obj has a triangle, 0, with vertex 8 of 3"));
+    EXPECT_TRUE(contains(refusal(path()), "f1.obj has a triangle, 0, with vertex 8 of 3"));
 }
 
-TEST(Sequence, PassesOverFilesOfAnotherFormat)
+TEST_F(Sequence, PassesOverFilesOfAnotherFormat)
 {
-    const Folder folder;
     const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     folder.file("scan_1.obj", text);
     folder.file("scan_1.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    EXPECT_TRUE(contains(refusal(folder.path().string()), "has as many frames in .obj as in .off"));
+    EXPECT_TRUE(contains(refusal(path()), "has as many frames in .obj as in .off"));
     std::filesystem::remove(folder.path() / "scan_1.off");
     for (const char* other : {"meta_3.xml", "meta_4.xml", "meta_5.xml", ".scan_7.obj"})
         folder.file(other, "<xml/>");
     folder.file("scan_2.obj", text);
     Listening library;
-    EXPECT_EQ(load_scene(folder.path().string(), library).frames.size(), 2u);
+    EXPECT_EQ(load_scene(path(), library).frames.size(), 2u);
     EXPECT_TRUE(contains(library.told,
                          "its frames are the 2 files in .obj, and 3 in .xml are passed over"));
 }
 
-TEST(Sequence, IsNotAnyFolder)
+TEST_F(Sequence, IsNotAnyFolder)
 {
-    const Folder folder;
-    EXPECT_TRUE(
-        contains(refusal(folder.path().string()), "has neither mesh.ply and frames.f32 nor"));
+    EXPECT_TRUE(contains(refusal(path()), "has neither mesh.ply and frames.f32 nor"));
 }
 
 TEST(DataSets, ThatAreHereHoldWhatTheManifestSays)

@@ -17,9 +17,10 @@ constexpr const char* dae =
 <node id="still"><instance_geometry url="#g"/></node><node id="moved"><translate>10 0 0</translate><instance_geometry url="#g"/></node>
 </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
 
-TEST(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
+using Worker = InFolder;
+
+TEST_F(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
 {
-    const Folder folder;
     Listening library;
     const Scene scene = load_scene(folder.file("square.dae", dae), library);
     ASSERT_EQ(scene.triangle_count(), 4u);
@@ -34,30 +35,27 @@ TEST(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
     EXPECT_EQ(scene.frames[0][5].x - scene.frames[0][1].x, 10.0f);
 }
 
-TEST(Worker, SaysWhyAssimpRefuses)
+TEST_F(Worker, SaysWhyAssimpRefuses)
 {
-    const Folder folder;
     const std::string message = refusal(folder.file("bad.dae", "{]"));
     EXPECT_TRUE(contains(message, "Unavailable: "));
     EXPECT_TRUE(contains(message, "bad.dae is not read: assimp says: "));
     EXPECT_EQ(message.find('\n'), message.npos);
 }
 
-TEST(Worker, IsEndedWhenItsTimeIsOver)
+TEST_F(Worker, IsEndedWhenItsTimeIsOver)
 {
-    const Folder folder;
     SceneLibrary library;
     library.time_limit_s = 1e-4;  // no process starts this fast
     EXPECT_TRUE(contains(refusal(folder.file("square.dae", dae), library),
                          "Unavailable: the reader took longer than 0.0001 s on "));
 }
 
-TEST(Worker, MayNotUseMoreMemoryThanItIsGiven)
+TEST_F(Worker, MayNotUseMoreMemoryThanItIsGiven)
 {
 #if defined(__SANITIZE_ADDRESS__)
     GTEST_SKIP() << "address space is not limited under the address sanitizer";
 #endif
-    const Folder folder;
     SceneLibrary library;
     library.memory_limit_bytes = 1 << 16;
     EXPECT_TRUE(contains(refusal(folder.file("square.dae", dae), library), "Unavailable: "));
