@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 namespace bvhbench {
 namespace {
@@ -250,14 +251,10 @@ public:
 
     std::size_t indices(const std::vector<double>& values)
     {
-        switch (below(chance_, 3)) {
-            case 0:
-                return accessor<std::uint8_t>(values, 5121, "SCALAR", 1);
-            case 1:
-                return accessor<std::uint16_t>(values, 5123, "SCALAR", 1);
-            default:
-                return accessor<std::uint32_t>(values, 5125, "SCALAR", 1);
-        }
+        const unsigned width = below(chance_, 3);
+        return width == 0   ? accessor<std::uint8_t>(values, 5121, "SCALAR", 1)
+               : width == 1 ? accessor<std::uint16_t>(values, 5123, "SCALAR", 1)
+                            : accessor<std::uint32_t>(values, 5125, "SCALAR", 1);
     }
 
     std::string text()
@@ -286,19 +283,12 @@ private:
     Chance& chance_;
 };
 
-std::vector<double> flat(const std::vector<std::array<double, 3>>& points)
+template <class T>
+std::vector<double> flat(const std::vector<std::array<T, 3>>& threes)
 {
     std::vector<double> all;
-    for (const auto& point : points)
-        all.insert(all.end(), point.begin(), point.end());
-    return all;
-}
-
-std::vector<double> corners(const Model::Part& part)
-{
-    std::vector<double> all;
-    for (const auto& face : part.faces)
-        all.insert(all.end(), face.begin(), face.end());
+    for (const auto& three : threes)
+        all.insert(all.end(), three.begin(), three.end());
     return all;
 }
 
@@ -312,7 +302,7 @@ GltfWriter gltf_of(
     Json nodes = Json::array(), roots = Json::array();
     for (const Model::Part& part : model.parts) {
         Json primitive = {{"attributes", {{"POSITION", positions(writer, flat(part.points))}}},
-                          {"indices", writer.indices(corners(part))}};
+                          {"indices", writer.indices(flat(part.faces))}};
         Json mesh = {{"primitives", {primitive}}};
         Json node = {{"mesh", writer.json["meshes"].size()}, {"name", "part"}};
         if (change)
@@ -350,150 +340,135 @@ std::string quantised(const Model& model, Chance& chance)
 {
     const bool normalized = below(chance, 2) == 1;
     const double most = static_cast<double>(std::numeric_limits<T>::max());
-    return gltf_of(
-               model, chance,
-               [&](GltfWriter& writer, std::vector<double> points) {
-                   for (double& x : points)
-                       x *= 4;
-                   writer.json["extensionsRequired"] = {"KHR_mesh_quantization"};
-                   return writer.accessor<T>(points, component_type, "VEC3", 3, normalized);
-               },
-               [&](GltfWriter&, Json& node, Json&) {
-                   const double scale = normalized ? most / 4 : 0.25;
-                   node["scale"] = {scale, scale, scale};
-               })
-        .text();
+    const auto positions = [&](GltfWriter& writer, std::vector<double> points) {
+        for (double& x : points)
+            x *= 4;
+        writer.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+        return writer.accessor<T>(points, component_type, "VEC3", 3, normalized);
+    };
+    const auto change = [&](GltfWriter&, Json& node, Json&) {
+        const double scale = normalized ? most / 4 : 0.25;
+        node["scale"] = {scale, scale, scale};
+    };
+    return gltf_of(model, chance, positions, change).text();
 }
 
 /// Points moved by a node above a node, by a matrix and by a translation.
 std::string moved_gltf(const Model& model, Chance& chance)
 {
     const double by = 0.25 * below(chance, 40);
-    return gltf_of(
-               model, chance,
-               [&](GltfWriter& writer, std::vector<double> points) {
-                   for (std::size_t k = 0; k < points.size(); k += 3)
-                       points[k] -= by;
-                   return as_floats(writer, points);
-               },
-               [&](GltfWriter&, Json& node, Json&) {
-                   if (below(chance, 2) == 1)
-                       node["translation"] = {by, 0, 0};
-                   else
-                       node["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, by, 0, 0, 1};
-               })
-        .text();
+    const auto positions = [&](GltfWriter& writer, std::vector<double> points) {
+        for (std::size_t k = 0; k < points.size(); k += 3)
+            points[k] -= by;
+        return as_floats(writer, points);
+    };
+    const auto change = [&](GltfWriter&, Json& node, Json&) {
+        if (below(chance, 2) == 1)
+            node["translation"] = {by, 0, 0};
+        else
+            node["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, by, 0, 0, 1};
+    };
+    return gltf_of(model, chance, positions, change).text();
 }
 
 /// Each part's mesh is moved away by 50 and back by a morph target.
 std::string morphed_gltf(const Model& model, Chance& chance)
 {
     std::size_t target = 0;
-    return gltf_of(
-               model, chance,
-               [&](GltfWriter& writer, std::vector<double> points) {
-                   std::vector<double> back(points.size());
-                   for (std::size_t k = 0; k < points.size(); k += 3) {
-                       points[k] += 50;
-                       back[k] = -100;
-                   }
-                   target = as_floats(writer, back);
-                   return as_floats(writer, points);
-               },
-               [&](GltfWriter&, Json& node, Json& mesh) {
-                   mesh["primitives"][0]["targets"] = {{{"POSITION", target}}};
-                   mesh["weights"] = {0.5};
-                   if (below(chance, 2) == 1) {
-                       mesh["weights"] = {7};
-                       node["weights"] = {0.5};
-                   }
-               })
-        .text();
+    const auto positions = [&](GltfWriter& writer, std::vector<double> points) {
+        std::vector<double> back(points.size());
+        for (std::size_t k = 0; k < points.size(); k += 3) {
+            points[k] += 50;
+            back[k] = -100;
+        }
+        target = as_floats(writer, back);
+        return as_floats(writer, points);
+    };
+    const auto change = [&](GltfWriter&, Json& node, Json& mesh) {
+        mesh["primitives"][0]["targets"] = {{{"POSITION", target}}};
+        mesh["weights"] = {0.5};
+        if (below(chance, 2) == 1) {
+            mesh["weights"] = {7};
+            node["weights"] = {0.5};
+        }
+    };
+    return gltf_of(model, chance, positions, change).text();
 }
 
 /// Each part hangs on two joints that move it back; its node's own place counts for nothing.
 std::string skinned_gltf(const Model& model, Chance& chance)
 {
     std::size_t vertices = 0;
-    return gltf_of(
-               model, chance,
-               [&](GltfWriter& writer, std::vector<double> points) {
-                   vertices = points.size() / 3;
-                   for (std::size_t k = 0; k < points.size(); k += 3)
-                       points[k] += 8;
-                   return as_floats(writer, points);
-               },
-               [&](GltfWriter& writer, Json& node, Json& mesh) {
-                   std::vector<double> joints, weights, binds;
-                   for (std::size_t k = 0; k < vertices; ++k) {
-                       joints.insert(joints.end(), {0, 1, 0, 0});
-                       weights.insert(weights.end(), {0.25, 0.75, 0, 0});
-                   }
-                   for (const double x : {-2.0, -3.0})  // inverse bind matrices
-                       binds.insert(binds.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1});
-                   Json& attributes = mesh["primitives"][0]["attributes"];
-                   attributes["JOINTS_0"] = writer.accessor<std::uint8_t>(joints, 5121, "VEC4", 4);
-                   attributes["WEIGHTS_0"] = writer.floats(weights, "VEC4", 4);
-                   const std::size_t part = writer.json["skins"].size(),
-                                     first = model.parts.size() + 2 * part;
-                   writer.json["skins"].push_back(
-                       {{"joints", {first, first + 1}},
-                        {"inverseBindMatrices", writer.floats(binds, "MAT4", 16)}});
-                   node["skin"] = part;
-                   node["translation"] = {100, 5, -7};
-                   writer.json["more"].push_back({{"translation", {-6, 0, 0}}});
-                   writer.json["more"].push_back({{"translation", {-5, 0, 0}}});
-               })
-        .text();
+    const auto positions = [&](GltfWriter& writer, std::vector<double> points) {
+        vertices = points.size() / 3;
+        for (std::size_t k = 0; k < points.size(); k += 3)
+            points[k] += 8;
+        return as_floats(writer, points);
+    };
+    const auto change = [&](GltfWriter& writer, Json& node, Json& mesh) {
+        std::vector<double> joints, weights, binds;
+        for (std::size_t k = 0; k < vertices; ++k) {
+            joints.insert(joints.end(), {0, 1, 0, 0});
+            weights.insert(weights.end(), {0.25, 0.75, 0, 0});
+        }
+        for (const double x : {-2.0, -3.0})  // inverse bind matrices
+            binds.insert(binds.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1});
+        Json& attributes = mesh["primitives"][0]["attributes"];
+        attributes["JOINTS_0"] = writer.accessor<std::uint8_t>(joints, 5121, "VEC4", 4);
+        attributes["WEIGHTS_0"] = writer.floats(weights, "VEC4", 4);
+        const std::size_t part = writer.json["skins"].size(), first = model.parts.size() + 2 * part;
+        writer.json["skins"].push_back({{"joints", {first, first + 1}},
+                                        {"inverseBindMatrices", writer.floats(binds, "MAT4", 16)}});
+        node["skin"] = part;
+        node["translation"] = {100, 5, -7};
+        writer.json["more"].push_back({{"translation", {-6, 0, 0}}});
+        writer.json["more"].push_back({{"translation", {-5, 0, 0}}});
+    };
+    return gltf_of(model, chance, positions, change).text();
 }
 
 /// Each part is one instance of a mesh of twice its size.
 std::string instanced_gltf(const Model& model, Chance& chance)
 {
-    return gltf_of(
-               model, chance,
-               [&](GltfWriter& writer, std::vector<double> points) {
-                   for (double& x : points)
-                       x = x * 2 - 3;
-                   writer.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
-                   return as_floats(writer, points);
-               },
-               [&](GltfWriter& writer, Json& node, Json&) {
-                   Json attributes = {{"TRANSLATION", writer.floats({1.5, 1.5, 1.5}, "VEC3", 3)},
-                                      {"SCALE", writer.floats({0.5, 0.5, 0.5}, "VEC3", 3)}};
-                   if (below(chance, 2) == 1)
-                       attributes["ROTATION"] = writer.floats({0, 0, 0, 1}, "VEC4", 4);
-                   node["extensions"] = {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}};
-               })
-        .text();
+    const auto positions = [&](GltfWriter& writer, std::vector<double> points) {
+        for (double& x : points)
+            x = x * 2 - 3;
+        writer.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+        return as_floats(writer, points);
+    };
+    const auto change = [&](GltfWriter& writer, Json& node, Json&) {
+        Json attributes = {{"TRANSLATION", writer.floats({1.5, 1.5, 1.5}, "VEC3", 3)},
+                           {"SCALE", writer.floats({0.5, 0.5, 0.5}, "VEC3", 3)}};
+        if (below(chance, 2) == 1)
+            attributes["ROTATION"] = writer.floats({0, 0, 0, 1}, "VEC4", 4);
+        node["extensions"] = {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}};
+    };
+    return gltf_of(model, chance, positions, change).text();
 }
 
 /// Positions that a sparse accessor changes, over zeros or over other values.
 std::string sparse_gltf(const Model& model, Chance& chance)
 {
-    return gltf_of(model, chance,
-                   [&](GltfWriter& writer, const std::vector<double>& points) {
-                       std::vector<double> places(points.size() / 3), other(points.size(), 9);
-                       for (std::size_t k = 0; k < places.size(); ++k)
-                           places[k] = static_cast<double>(k);
-                       const bool has_base = below(chance, 2) == 1;
-                       const std::size_t base = as_floats(writer, other);
-                       const std::size_t at =
-                           writer.accessor<std::uint16_t>(places, 5123, "SCALAR", 1);
-                       const std::size_t values = as_floats(writer, points);
-                       Json& accessors = writer.json["accessors"];
-                       Json sparse = accessors[base];
-                       if (!has_base)
-                           sparse.erase("bufferView");
-                       sparse["sparse"] = {
-                           {"count", places.size()},
-                           {"indices",
-                            {{"bufferView", accessors[at]["bufferView"]}, {"componentType", 5123}}},
-                           {"values", {{"bufferView", accessors[values]["bufferView"]}}}};
-                       accessors.push_back(sparse);
-                       return accessors.size() - 1;
-                   })
-        .text();
+    const auto positions = [&](GltfWriter& writer, const std::vector<double>& points) {
+        std::vector<double> places(points.size() / 3), other(points.size(), 9);
+        for (std::size_t k = 0; k < places.size(); ++k)
+            places[k] = static_cast<double>(k);
+        const bool has_base = below(chance, 2) == 1;
+        const std::size_t base = as_floats(writer, other);
+        const std::size_t at = writer.accessor<std::uint16_t>(places, 5123, "SCALAR", 1);
+        const std::size_t values = as_floats(writer, points);
+        Json& accessors = writer.json["accessors"];
+        Json sparse = accessors[base];
+        if (!has_base)
+            sparse.erase("bufferView");
+        sparse["sparse"] = {
+            {"count", places.size()},
+            {"indices", {{"bufferView", accessors[at]["bufferView"]}, {"componentType", 5123}}},
+            {"values", {{"bufferView", accessors[values]["bufferView"]}}}};
+        accessors.push_back(sparse);
+        return accessors.size() - 1;
+    };
+    return gltf_of(model, chance, positions).text();
 }
 
 std::string dae(const Model& model, Chance& chance)
@@ -567,10 +542,8 @@ std::string x_file(const Model& model, Chance&)
 
 std::size_t Model::triangles() const
 {
-    std::size_t count = 0;
-    for (const Part& part : parts)
-        count += part.faces.size();
-    return count;
+    return std::transform_reduce(parts.begin(), parts.end(), std::size_t{0}, std::plus(),
+                                 [](const Part& part) { return part.faces.size(); });
 }
 
 unsigned below(Chance& chance, unsigned end)
