@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -35,44 +37,37 @@ std::uint64_t literal_virtual_count(const LiteralTree& tree)
     return tree.nodes.size() - tree.real_count;
 }
 
+/// Returns the sum of a term over the exponents of `virtual_leaves`.
+template <class Term>
+auto summed(uint virtual_leaves, uint arity, const Term& term)
+{
+    const std::vector<uint> over = exponents(virtual_leaves, arity);
+    return std::transform_reduce(over.begin(), over.end(), decltype(term(0u)){}, std::plus(), term);
+}
+
 TEST(Erratum, Equation5sFirstLineTakesPowersForExponents)
 {
     // As printed: the sum of 2^(x_k) - 1 over x_k in X, whose members are powers of two already.
     const auto printed_first_line = [](uint virtual_leaves) {
-        double sum = 0;
-        for (const uint y : exponents(virtual_leaves, 2))
-            sum += std::exp2(std::exp2(y)) - 1;
-        return sum;
+        return summed(virtual_leaves, 2, [](uint y) { return std::exp2(std::exp2(y)) - 1; });
     };
     // With y_k for x_k, the obvious correction: the result is still the trees' leaves minus one each.
-    const auto with_y = [](uint virtual_leaves) {
-        uint sum = 0;
-        for (const uint y : exponents(virtual_leaves, 2))
-            sum += (1u << y) - 1;
-        return sum;
-    };
+    const auto with_y = [](uint y) { return (1u << y) - 1; };
     // With y_k + 1: a perfect tree with 2^y leaves has 2^(y + 1) - 1 nodes. This equals the second line.
-    const auto corrected = [](uint virtual_leaves) {
-        uint sum = 0;
-        for (const uint y : exponents(virtual_leaves, 2))
-            sum += (2u << y) - 1;
-        return sum;
-    };
+    const auto corrected = [](uint y) { return (2u << y) - 1; };
     const auto second_line = [](uint virtual_leaves) {
-        uint sum = 0;
-        for (const uint y : exponents(virtual_leaves, 2))
-            sum += 1u << y;
-        return 2 * sum - static_cast<uint>(exponents(virtual_leaves, 2).size());
+        return 2 * summed(virtual_leaves, 2, [](uint y) { return 1u << y; }) -
+               static_cast<uint>(exponents(virtual_leaves, 2).size());
     };
     EXPECT_EQ(printed_first_line(4), 15);  // four virtual leaves under one node: 7 virtual nodes
-    EXPECT_EQ(corrected(4), 7u);
+    EXPECT_EQ(summed(4, 2, corrected), 7u);
     for (uint leaves = 1; leaves <= 3000; ++leaves) {
         const uint virtual_leaves = oi_shape(leaves).virtual_leaves;
         const auto counted = static_cast<uint>(literal_virtual_count(LiteralTree(leaves, 2)));
-        ASSERT_EQ(corrected(virtual_leaves), counted) << leaves;
+        ASSERT_EQ(summed(virtual_leaves, 2, corrected), counted) << leaves;
         ASSERT_EQ(second_line(virtual_leaves), counted) << leaves;
         ASSERT_EQ(printed_first_line(virtual_leaves) == counted, virtual_leaves < 4) << leaves;
-        ASSERT_EQ(with_y(virtual_leaves) == counted, virtual_leaves == 0) << leaves;
+        ASSERT_EQ(summed(virtual_leaves, 2, with_y) == counted, virtual_leaves == 0) << leaves;
     }
 }
 
@@ -110,10 +105,9 @@ TEST(Erratum, Equation18CountsFromTheWrongEnd)
 TEST(Erratum, Equation17HasAnExponentOneTooSmall)
 {
     const auto sum_of = [](uint virtual_leaves, uint arity, uint exponent_more) {
-        uint sum = 0;
-        for (const uint y : exponents(virtual_leaves, arity))
-            sum += (kary_power(arity, y + exponent_more) - 1) / (arity - 1);
-        return sum;
+        return summed(virtual_leaves, arity, [=](uint y) {
+            return (kary_power(arity, y + exponent_more) - 1) / (arity - 1);
+        });
     };
     for (const uint arity : {2u, 3u, 4u, 8u})
         for (uint leaves = 1; leaves <= 600; ++leaves) {
