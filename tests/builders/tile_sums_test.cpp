@@ -56,8 +56,8 @@ protected:
               "builders/stages/sort/peers.clh", "builders/stages/sort/tile_digits.clh",
               "builders/stages/sort/look_back.clh", "builders/stages/sort/tile_sums.clh",
               "device/handoff.clh"})
-            folder.write(name, embedded_kernel(name).value());
-        folder.write("parts.cl", kernel_text);
+            folder.file(name, embedded_kernel(name).value());
+        folder.file("parts.cl", kernel_text);
     }
 
     template <class... Arguments>

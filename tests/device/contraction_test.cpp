@@ -136,8 +136,8 @@ protected:
         for (const char* name :
              {"geometry/dialect.h", "geometry/box_side.h", "geometry/aabb.h", "geometry/triangle.h",
               "geometry/vectors.h", "geometry/exact_sum.h", "geometry/orient.h"})
-            folder.write(name, embedded_kernel(name).value());
-        folder.write("contraction.cl", kernel_text);
+            folder.file(name, embedded_kernel(name).value());
+        folder.file("contraction.cl", kernel_text);
     }
 
     /// Runs a kernel of `kernel_text` with one work-item per result. Its arguments are a buffer of `operands`, then `outs`.
@@ -178,7 +178,7 @@ TEST_F(DeviceContraction, IsOffInDoubles)
 /// No build option permits other rounding: all options are in a list of known ones.
 TEST_F(DeviceContraction, IsNotAskedForByAnOption)
 {
-    folder.write("nothing.cl", "kernel void nothing() {}\n");
+    folder.file("nothing.cl", "kernel void nothing() {}\n");
     const cl::Kernel kernel = programs.kernel("nothing.cl", "nothing", {{"NUMBER", 1}});
     const auto program = kernel.getInfo<CL_KERNEL_PROGRAM>();
     std::istringstream words(program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(device.cl));

@@ -10,12 +10,12 @@ class Compiling : public OnDeviceWithKernels {};
 
 TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
 {
-    KernelFolder folder;
-    folder.write("a.h", "int a;\n");
-    folder.write("b.h", "#include \"a.h\"\nint b;\n");
-    folder.write("k.cl", "#include \"a.h\"\n#include \"b.h\"\nint k;\n");
-    folder.write("gone.cl", "#include \"gone.h\"\n");
-    const Sources sources = folder.sources();
+    const Folder folder;
+    folder.file("a.h", "int a;\n");
+    folder.file("b.h", "#include \"a.h\"\nint b;\n");
+    folder.file("k.cl", "#include \"a.h\"\n#include \"b.h\"\nint k;\n");
+    folder.file("gone.cl", "#include \"gone.h\"\n");
+    const Sources sources = Sources::tree(folder.path());
     EXPECT_EQ(sources.flatten({"k.cl"}),
               "#line 1 \"k.cl\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"k.cl\"\n#line 1 \"b.h\"\n"
               "#line 2 \"b.h\"\nint b;\n#line 3 \"k.cl\"\nint k;\n");
@@ -36,7 +36,7 @@ TEST(Sources, AreEmbeddedInTheProgram)
 
 TEST_F(Compiling, CompileOnceForTheSameTextAndDefines)
 {
-    folder.write("k.cl", "kernel void k(global uint* out) { out[0] = VALUE; }\n");
+    folder.file("k.cl", "kernel void k(global uint* out) { out[0] = VALUE; }\n");
     programs.kernel("k.cl", "k", {{"VALUE", 1}});
     const std::int64_t once = programs.compile_ns();
     EXPECT_GT(once, 0);
@@ -48,7 +48,7 @@ TEST_F(Compiling, CompileOnceForTheSameTextAndDefines)
 
 TEST_F(Compiling, FailWithTheFileTheLineAndTheOptions)
 {
-    folder.write("k.cl", "kernel void k()\n{\n    nonsense();\n}\n");
+    folder.file("k.cl", "kernel void k()\n{\n    nonsense();\n}\n");
     try {
         programs.kernel("k.cl", "k", {{"GROUP_SIZE", 64}});
         FAIL() << "it built";
@@ -66,9 +66,9 @@ TEST_F(Compiling, FailWithTheFileTheLineAndTheOptions)
 
 TEST_F(Compiling, DeclareBuiltInFunctionsThemselvesOnPoclAlone)
 {
-    folder.write("k.cl",
-                 "#ifdef BVHBENCH_DEVICE_BUILTINS_CLH\nkernel void ours() {}\n#else\n"
-                 "kernel void theirs() {}\n#endif\n");
+    folder.file("k.cl",
+                "#ifdef BVHBENCH_DEVICE_BUILTINS_CLH\nkernel void ours() {}\n#else\n"
+                "kernel void theirs() {}\n#endif\n");
     const cl::Platform platform(device.cl.getInfo<CL_DEVICE_PLATFORM>());
     const bool is_pocl =
         platform.getInfo<CL_PLATFORM_VERSION>().find("PoCL 3.1") != std::string::npos;
@@ -79,8 +79,8 @@ TEST_F(Compiling, DeclareBuiltInFunctionsThemselvesOnPoclAlone)
 
 TEST_F(Compiling, BuildWithFunctionsThatAreNotDeclaredToo)
 {
-    folder.write("k.cl",
-                 "kernel void k(global float* out) { out[0] = sqrt(out[0]) + mad24(2, 3, 4); }\n");
+    folder.file("k.cl",
+                "kernel void k(global float* out) { out[0] = sqrt(out[0]) + mad24(2, 3, 4); }\n");
     cl::Kernel kernel = programs.kernel("k.cl", "k");
     auto out = buffer<float>(1);
     const float nine = 9;

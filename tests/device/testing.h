@@ -3,40 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <initializer_list>
 #include <string>
-#include <string_view>
 
 #include "device/program.h"
 #include "device/queue.h"
 #include "geometry/error.h"
+#include "tests/folder.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
-
-/// A temporary folder of kernel files, removed by the destructor.
-class KernelFolder {
-public:
-    KernelFolder()
-        : path_(std::filesystem::path(testing::TempDir()) /
-                testing::UnitTest::GetInstance()->current_test_info()->name())
-    {
-        std::filesystem::create_directories(path_);
-    }
-    ~KernelFolder() { std::filesystem::remove_all(path_); }
-
-    void write(std::string_view name, std::string_view text)
-    {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        std::ofstream(path_ / name) << text;
-    }
-    Sources sources() const { return Sources::tree(path_); }
-
-private:
-    std::filesystem::path path_;
-};
 
 class OnDevice : public testing::Test {
 protected:
@@ -54,8 +30,8 @@ protected:
         return {cl::Buffer(device.context, CL_MEM_READ_WRITE, size * sizeof(T)), size};
     }
 
-    KernelFolder folder;
-    Device device = open_device("", folder.sources());
+    Folder folder;
+    Device device = open_device("", Sources::tree(folder.path()));
     Programs programs{device};
     Queue queue{device};
 };

@@ -22,6 +22,7 @@
 #include "harness/base/json_keys.h"
 #include "harness/commands/command.h"
 #include "tests/faults/opencl_shim.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 namespace {
@@ -63,17 +64,7 @@ std::size_t bytes_in_memory()
 
 class Injected : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        folder_ = fs::temp_directory_path() / ("bvhbench-faults-" + std::to_string(getpid()));
-        fs::create_directories(folder_);
-        file_ = folder_ / "r.json";
-    }
-    void TearDown() override
-    {
-        setenv("BVHBENCH_COPY_BYTES", copied_.c_str(), 1);
-        fs::remove_all(folder_);
-    }
+    void TearDown() override { setenv("BVHBENCH_COPY_BYTES", copied_.c_str(), 1); }
 
     /// Finds the copy rate over small buffers in this test. The calls that find it over large ones fail in that of a build.
     static void copy_little() { setenv("BVHBENCH_COPY_BYTES", "1048576", 1); }
@@ -113,7 +104,8 @@ private:
         std::getenv("BVHBENCH_COPY_BYTES") ? std::getenv("BVHBENCH_COPY_BYTES") : "";
 
 protected:
-    fs::path folder_, file_;
+    const Folder made_;
+    const fs::path folder_ = made_.path(), file_ = folder_ / "r.json";
 };
 
 void Injected::expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const

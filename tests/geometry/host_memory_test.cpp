@@ -2,31 +2,21 @@
 #include "geometry/host_memory.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "geometry/error.h"
+#include "tests/folder.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A directory tree with files like those of /proc and /sys.
 class CgroupMemory : public testing::Test {
 protected:
-    ~CgroupMemory() override { fs::remove_all(root_); }
-
-    void file(const std::string& path, const std::string& text) const
-    {
-        fs::create_directories((root_ / path).parent_path());
-        std::ofstream(root_ / path) << text;
-    }
+    void file(const std::string& path, const std::string& text) const { root_.file(path, text); }
 
     /// Writes a v1 group: its limit, its usage, and how much of the usage is page cache.
     void v1(const std::string& group, const char* limit, const char* used, int files) const
@@ -46,10 +36,9 @@ protected:
              "anon 9\nactive_file 1\ninactive_file " + std::to_string(files) + '\n');
     }
 
-    std::optional<std::uint64_t> left() const { return cgroup_memory_left(root_); }
+    std::optional<std::uint64_t> left() const { return cgroup_memory_left(root_.path()); }
 
-    const fs::path root_ =
-        fs::temp_directory_path() / ("bvhbench-cgroup-" + std::to_string(getpid()));
+    const Folder root_;
 };
 
 constexpr const char* mount_v1 =

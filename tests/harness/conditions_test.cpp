@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "harness/record/provenance.h"
 #include "harness/session/other_processes.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 namespace {
@@ -13,20 +11,20 @@ namespace {
 /// Provides a folder that looks like a host's root.
 class Conditions : public testing::Test {
 protected:
-    void TearDown() override { std::filesystem::remove_all(root_); }
     void put(const std::string& file, const std::string& text) const
     {
-        std::filesystem::create_directories((root_ / file).parent_path());
-        std::ofstream(root_ / file) << text << '\n';
+        root_.file(file, text + '\n');
     }
-    Json found(const std::string& build = "Release") const { return host_conditions(build, root_); }
+    Json found(const std::string& build = "Release") const
+    {
+        return host_conditions(build, root_.path());
+    }
     std::size_t warnings(const std::string& build = "Release") const
     {
         return found(build)["warnings"].size();
     }
 
-    const std::filesystem::path root_ =
-        std::filesystem::temp_directory_path() / ("conditions-" + std::to_string(getpid()));
+    const Folder root_;
 };
 
 const std::string cpus = "sys/devices/system/cpu/";
@@ -67,7 +65,7 @@ TEST_F(Conditions, AreWarnedOfEachByItself)
 
 TEST_F(Conditions, CountWhoElseWantsToRunBetweenSamples)
 {
-    OtherProcesses others(root_);
+    OtherProcesses others(root_.path());
     others.look();
     EXPECT_FALSE(others.mean());
     for (const char* running : {"1", "3", "5"}) {  // the one that looks is one of them

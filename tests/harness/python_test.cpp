@@ -2,37 +2,25 @@
 #include "harness/base/python.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 
 #include "geometry/error.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Provides a folder with scripts whose path has characters that a shell would interpret.
 class Python : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        fs::create_directories(folder_ / "plots");
-        setenv("BVHBENCH_HOME", folder_.c_str(), 1);
-    }
-    void TearDown() override
-    {
-        unsetenv("BVHBENCH_HOME");
-        fs::remove_all(folder_);
-    }
-    void write(const char* text) const { std::ofstream(folder_ / "plots" / "__main__.py") << text; }
+    void SetUp() override { setenv("BVHBENCH_HOME", folder_.c_str(), 1); }
+    void TearDown() override { unsetenv("BVHBENCH_HOME"); }
+    void write(const char* text) const { made_.file("plots/__main__.py", text); }
 
-    const fs::path folder_ =
-        fs::temp_directory_path() /
-        ("it's \"a\" name; $(exit 1) `exit 1` & * " + std::to_string(getpid()));
+    const Folder made_{"it's \"a\" name; $(exit 1) `exit 1` & * "};
+    const std::filesystem::path& folder_ = made_.path();
 };
 
 TEST_F(Python, NamesReachTheScriptAsTheyAreWhateverAShellWouldMakeOfThem)
@@ -56,7 +44,7 @@ assert sys.argv[1] == 'show' and open(sys.argv[2]).read() == 'a document', sys.a
     testing::internal::CaptureStderr();
     EXPECT_THROW(print_tables("another", {}), Unavailable);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("AssertionError"), std::string::npos);
-    fs::remove(folder_ / "plots" / "__main__.py");
+    std::filesystem::remove(folder_ / "plots" / "__main__.py");
     EXPECT_THROW(print_tables("a document", {}), Unavailable);
 }
 

@@ -2,13 +2,13 @@
 #include "harness/record/result_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
 
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
+#include "tests/folder.h"
 #include "tests/harness/fakes.h"
 
 namespace bvhbench {
@@ -18,22 +18,15 @@ namespace fs = std::filesystem;
 
 class ResultFileTest : public testing::Test {
 protected:
-    void SetUp() override
-    {
-        folder_ = fs::path(testing::TempDir()) / ("bvhbench-" + std::to_string(getpid()));
-        fs::create_directories(folder_);
-        path_ = folder_ / "r.json";
-        journal_ = path_.string() + ".journal";
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     static std::string text_of(const fs::path& path)
     {
         std::ifstream file(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
-    fs::path folder_, path_, journal_;
+    const Folder made_;
+    const fs::path folder_ = made_.path(), path_ = folder_ / "r.json",
+                   journal_ = path_.string() + ".journal";
 };
 
 TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
 
 #include "builders/parameters.h"
 #include "builders/stages/sort/sort.h"
 #include "geometry/error.h"
+#include "tests/folder.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
@@ -109,36 +109,35 @@ TEST(TuningFile, IsOfOneDeviceAndOfGroupsThatItHas)
     EXPECT_EQ(tuning_of(file, device, "x.json").origin(), "x.json");
 }
 
-class Folder : public testing::Test {
+class TuningFolder : public testing::Test {
 protected:
-    void SetUp() override { std::filesystem::create_directories(path_); }
-    void TearDown() override { std::filesystem::remove_all(path_); }
-    void write(const std::string& text)
+    /// Writes the device's file and returns its path.
+    std::string write(const std::string& text) const
     {
-        std::ofstream(path_ / (device_slug(device_.name()) + ".json")) << text;
+        return folder_.file(device_slug(device_.name()) + ".json", text);
     }
-    const std::filesystem::path path_ =
-        std::filesystem::temp_directory_path() / ("tuning_file_test" + std::to_string(std::rand()));
+    const Folder folder_;
+    const std::string path_ = folder_.path().string();
     Device device_ = open_device("");
 };
 
-TEST_F(Folder, GivesTheDevicesFileOrNone)
+TEST_F(TuningFolder, GivesTheDevicesFileOrNone)
 {
-    EXPECT_EQ(tuning_file_for(device_, path_.string()).origin, "none") << "no file of this device";
+    EXPECT_EQ(tuning_file_for(device_, path_).origin, "none") << "no file of this device";
     TuningFile file = some_file();
     file.device = device_.name();
-    write(tuning_text(file));
-    const NamedTuning found = tuning_file_for(device_, path_.string());
+    const std::string written = write(tuning_text(file));
+    const NamedTuning found = tuning_file_for(device_, path_);
     EXPECT_EQ(found.file.values, file.values);
-    EXPECT_EQ(found.origin, (path_ / (device_slug(device_.name()) + ".json")).string());
+    EXPECT_EQ(found.origin, written);
     EXPECT_EQ(tuning_file_for(device_, "").origin, "none") << "an empty word means none";
     write("{");
-    EXPECT_NE(refusal_of([&] { tuning_file_for(device_, path_.string()); }), "");
+    EXPECT_NE(refusal_of([&] { tuning_file_for(device_, path_); }), "");
     EXPECT_EQ(refusal_of([&] { tuning_file_for(device_, "/no/such"); }),
               "tuning: there is no folder '/no/such'");
 }
 
-TEST_F(Folder, IsTheOptionsBeforeTheVariables)
+TEST_F(TuningFolder, IsTheOptionsBeforeTheVariables)
 {
     unsetenv("BVHBENCH_TUNING");
     EXPECT_EQ(tuning_folder({}), std::nullopt);

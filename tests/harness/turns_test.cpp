@@ -2,16 +2,15 @@
 #include "harness/session/turns.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "geometry/error.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 namespace {
@@ -21,15 +20,8 @@ using namespace std::chrono_literals;
 /// Provides the name of a file that does not exist.
 class TurnsTest : public testing::Test {
 protected:
-    void SetUp() override { remove(); }
-    void TearDown() override { remove(); }
-    void remove() const
-    {
-        std::filesystem::remove(path_);
-        std::filesystem::remove(path_ + ".last");
-    }
-    const std::string path_ =
-        std::filesystem::temp_directory_path() / ("turns-" + std::to_string(getpid()));
+    const Folder folder_;
+    const std::string path_ = folder_.path() / "turns";
 };
 
 TEST_F(TurnsTest, AreTakenOneAtATimeAndByAll)

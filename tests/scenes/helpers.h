@@ -2,48 +2,19 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 
 #include "geometry/error.h"
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
-
-/// A temporary folder that is deleted with the object.
-class Folder {
-public:
-    Folder()
-    {
-        std::string pattern = std::filesystem::temp_directory_path() / "bvhbench-scenes-XXXXXX";
-        if (mkdtemp(pattern.data()) == nullptr)
-            throw std::runtime_error("no temporary folder " + pattern);
-        path_ = pattern;
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() { std::filesystem::remove_all(path_); }
-
-    /// Writes a file and returns its path.
-    std::string file(const std::string& name, std::string_view bytes) const
-    {
-        std::filesystem::create_directories((path_ / name).parent_path());
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// Tests with a temporary folder.
 class InFolder : public testing::Test {
