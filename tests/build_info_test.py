@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
-"""Tests which commit and which changes a build stamps into the program: runs the script of cmake/BuildInfo.cmake in small trees.
-
-Usage: build_info_test.py <source root>
-"""
+"""Tests which commit and which changes a build stamps into the program: runs the script of cmake/BuildInfo.cmake in small trees."""
 import os
 import pathlib
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 NOBODY = 65534
 
 
@@ -94,6 +89,3 @@ class BuildInfo(unittest.TestCase):
             for name in ("README.md", "harness/main.cpp"):
                 os.utime(place / "unpacked" / name, (later, later))
             self.assertEqual(self.stamp(place / "unpacked"), (own, "true", ["harness/main.cpp"]))
-
-
-unittest.main()

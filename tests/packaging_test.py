@@ -1,15 +1,10 @@
-#!/usr/bin/env python3
-"""Tests the files of packaging/ against the build, the lists of packages and the version. Builds nothing.
-
-Usage: packaging_test.py <source root>
-"""
+"""Tests the files of packaging/ against the build, the lists of packages and the version. Builds nothing."""
 import ast
 import pathlib
 import re
-import sys
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 PACKAGING = ROOT / "packaging"
 # What each dependency of Spack and conda is in packages.txt.
 DEBIAN = {"cxx": "build-essential", "cmake": "cmake", "ninja": "ninja-build", "git": "git", "opencl": "ocl-icd-opencl-dev",
@@ -75,7 +70,3 @@ class Packaging(unittest.TestCase):
     def test_what_the_recipe_looks_for_is_installed(self) -> None:
         for path in re.findall(r"test -f \$PREFIX/(\S+)", text("packaging/conda/meta.yaml")):
             self.assertIn(pathlib.PurePath(path).name, text("library/CMakeLists.txt"))
-
-
-if __name__ == "__main__":
-    unittest.main()

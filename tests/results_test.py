@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 """Tests that committed result files match their schema, and that the schema refuses invalid ones. Those of the experiment
 `agreement` must show that every collider is right over every tree, and match the data sets' references.
-
-Usage: results_test.py <source root>
 
 The comparison with the references needs the data sets (BVHBENCH_DATA). Without them it is skipped with a message."""
 import copy
@@ -10,12 +7,11 @@ import json
 import lzma
 import os
 import pathlib
-import sys
 import unittest
 
 import jsonschema
 
-ROOT = pathlib.Path(sys.argv.pop(1))
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 ALL_CASES = os.environ.get("BVHBENCH_TESTS") == "all"
 
 
@@ -190,7 +186,3 @@ class Agreement(unittest.TestCase):
                                          reference[f"{listed}_inter"] + reference[f"{listed}_self_nonadj"], where)
                         compared += 1
             self.assertGreater(compared, 47 * 30, path)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """Runs the steps of the time gate that docs/ci.md prints, in a clone of this repository with one commit.
-
-Usage: ci_steps_test.py <source root>
 
 The clone's `bvhbench` is a script, so nothing is built or measured: `run` copies a result file that is committed beside it, and
 `compare` is the real one. Steps that install packages, and those of GitHub, are left out; all others run as printed.
@@ -16,7 +13,7 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAUNCHER = f"""#!/usr/bin/env bash
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
@@ -115,7 +112,3 @@ class TimeGate(unittest.TestCase):
         self.assertEqual(code, 1, said)
         self.assertIn("SLOWER", said)
         self.assertIn("1 regression\n", said)
-
-
-if __name__ == "__main__":
-    unittest.main()

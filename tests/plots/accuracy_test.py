@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that figures of accuracy show every method, mark the best ones, and refuse wrong answers."""
 import math
 import statistics
@@ -118,7 +117,3 @@ class Figures(InFolder):
 
     def test_a_file_without_an_axis_has_none(self) -> None:
         self.assertEqual(accuracy.draws_of(results.load(GOLDEN / "table1.json")), {})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,5 +1,5 @@
-"""Shared by tests of plots: the source root (each test's only argument), generated result files and runs, and ways to run
-scripts."""
+"""Shared by tests of plots, which `python3 -m unittest NAME_test` runs in their folder: the source root, generated result files and runs,
+and ways to run scripts."""
 import copy
 import functools
 import importlib
@@ -14,7 +14,7 @@ import traceback
 import unittest
 from typing import Any
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 GOLDEN = ROOT / "tests" / "golden"
 MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # a memory file system, where fsync costs no time
 ALL_CASES = os.environ.get("BVHBENCH_TESTS") == "all"  # .ci/nightly

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests the ranking of builders and pipelines, the sentence and the tables made of it, and the candidates of `best`."""
 import json
 import unittest
@@ -400,7 +399,3 @@ class TheCandidates(unittest.TestCase):
         places = {(builder["boxes"], builder["leaves"]) for builder, _ in self.product(boxes=["f32", "u16"]).candidates() if builder}
         self.assertEqual(places, {("f32", "mesh"), ("f32", "sorted"), ("u16", "sorted"), ("u16", "mesh")})
         self.assertEqual({builder["boxes"] for builder, _ in self.product("memory").candidates() if builder}, {"f32", "u16"})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests what `compare` reports about times, counters, verdicts and cells of two result files, and its statistics against tables."""
 import argparse
 import copy
@@ -391,7 +390,3 @@ class Statistics(unittest.TestCase):
     def test_a_median_is_between_the_order_statistics_of_the_tables(self) -> None:
         for count, error, rank in ((9, 0.05, 2), (20, 0.05, 6), (30, 0.05, 10), (30, 0.01, 8), (100, 0.05, 40), (5, 0.05, 0), (0, 0.05, 0)):
             self.assertEqual(rank_below(count, error), rank)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests what the experiment effects is said to show, on cells of known effects: ratios, shares, correlations, figure, tables."""
 import itertools
 import math
@@ -144,7 +143,3 @@ class Shown(unittest.TestCase):
         self.assertEqual((len(dots), {len(line.get_xdata()) for line in dots}), (11, {3}))  # the host's tree has no frame
         self.assertEqual([text.get_text() for text in right.texts], [*MEASURES])
         self.assertRegex(effects_table.text(run), r"builder +sah-binned +oibvh-single +0\.8")
-
-
-if __name__ == "__main__":
-    unittest.main()

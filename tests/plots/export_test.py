@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests what `export` writes, read back by pandas and checked against a schema of Google Benchmark's format, and what the reader for
 notebooks gives."""
 import io
@@ -213,7 +212,3 @@ class OfRead(unittest.TestCase):
     def test_what_is_no_result_file_is_refused(self) -> None:
         with self.assertRaisesRegex(bvhbench_results.Refused, "is no result file"):
             bvhbench_results.read(ROOT / "results" / "paper" / "table1.json")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests what `smoke` keeps of a run, and which differences it reports as regressions."""
 import copy
 import json
@@ -138,7 +137,3 @@ class Changed(unittest.TestCase):
         text = baseline_changes.report(baseline_changes.compare(before, now, 1e9, False), 1e9)
         self.assertEqual(text, "REGRESSION soup: 0: nodes_count 8, was 7\nREGRESSION soup: 1: nodes_count 8, was 7\n"
                                "2 cells compared with the baseline, 2 times within 1e+09 times the ratio there: 2 regressions\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

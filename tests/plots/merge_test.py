@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that `merge` keeps every cell once, unchanged, refuses parts that differ, and reserves its output."""
 import copy
 import json
@@ -231,7 +230,3 @@ class Reserving(InFolder):
             with self.assertRaisesRegex(Refused, "link is being written by another process"):
                 self.reserve("link")
         self.reserve("link")
-
-
-if __name__ == "__main__":
-    unittest.main()

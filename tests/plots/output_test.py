@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests the handling of files that pages and pictures are written to, and of files that are not results."""
 import contextlib
 import io
@@ -207,7 +206,3 @@ class Outputs(InFolder):
         self.assertIn("there is no folder", self.make(3, "__main__.py report", self.folder / "c" / "r.html"))
         self.assertFalse((self.folder / "c").exists())
         self.assertIn("cannot be made: ", self.make(3, "__main__.py plot --only table1", self.folder / "a" / "b" / "table1.svg" / "d"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests console tables and numbers, what `show` prints for axes of accuracy and for stress, what `reproduce` prints beside the
 paper's numbers, how `show` reads and writes, and what a report says was found."""
 import os
@@ -360,7 +359,3 @@ class OfTheCommand(unittest.TestCase):
             file.write(b"\xef\xbb\xbf" + path.read_bytes())
             file.flush()
             self.assertEqual(self.show(file.name), self.show(path))
-
-
-if __name__ == "__main__":
-    unittest.main()

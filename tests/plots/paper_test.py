@@ -1,13 +1,9 @@
-#!/usr/bin/env python3
-"""Tests results/paper/*.json against the paper's own arithmetic, which finds typing errors.
-
-Usage: paper_test.py <source root>"""
+"""Tests results/paper/*.json against the paper's own arithmetic, which finds typing errors."""
 import json
 import pathlib
-import sys
 import unittest
 
-PAPER = pathlib.Path(sys.argv.pop(1)) / "results" / "paper"
+PAPER = pathlib.Path(__file__).resolve().parents[2] / "results" / "paper"
 
 
 def load(name: str) -> dict:
@@ -86,7 +82,3 @@ class PrintedNumbers(unittest.TestCase):
 
     def test_figure8_crossing_is_the_power_of_two_of_the_text(self) -> None:
         self.assertEqual(load("fig8")["crossing_triangles"], 2**17)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that the figure of orders shows every point, marks the best ones, and keeps its numbers apart."""
 import copy
 import itertools
@@ -121,7 +120,3 @@ class Figure(InFolder):
         self.assertEqual(figure.ticks_between(0.16, 0.42, 6), [0.2, 0.25, 0.3, 0.4])
         self.assertEqual(figure.ticks_between(4, 600, 3), [10, 100])
         self.assertEqual(figure.ticks_between(0.1, 2, 6), [0.1, 0.2, 0.5, 1, 2])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that every figure can be drawn from the golden results, and that the reader refuses what must not be plotted."""
 import copy
 import json
@@ -506,7 +505,3 @@ class Looks(InFolder):
     def test_a_builder_without_one_is_named(self) -> None:
         with self.assertRaisesRegex(results.Refused, "no look for the builder 'newcomer'"):
             style.look("newcomer")
-
-
-if __name__ == "__main__":
-    unittest.main()

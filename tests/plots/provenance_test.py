@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that result files speak of the kernels that are there, or are listed as older (plots/evidence/provenance.py)."""
 import json
 import pathlib
@@ -89,7 +88,3 @@ class Kernels(InFolder):
                        capture_output=True)
         with mock.patch.object(provenance, "ROOT", pathlib.Path(self.folder) / "shallow"):
             self.assertEqual(provenance.history(), "the clone is shallow")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that tables and numbers in documents are those of the result files that they come from (plots/evidence/quotes.py)."""
 import collections
 import pathlib
@@ -94,7 +93,3 @@ class ADocument(InFolder):
         made.table("three", "< name", [])
         self.assertEqual(made.faults, ["made.md: the block 'three' has no marks, or no end"])
         self.assertIn("made.md: the marks and the list of tables differ: ['one', 'two'], ['one', 'three']", made.findings())
-
-
-if __name__ == "__main__":
-    unittest.main()

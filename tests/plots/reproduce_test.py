@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests what `reproduce` runs and prints, and its exit codes, with a stand-in program that returns prepared files."""
 import io
 import os
@@ -137,7 +136,3 @@ class OfThePage(unittest.TestCase):
         self.assertEqual((self.page(1), self.code), ("", 1))
         with self.assertRaises(SystemExit):
             self.page(SystemExit(130))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests the model, the stages and the table of `scale`, and how files of it and of `cluster` are shown and compared: on numbers done by hand, and on the files that docs/cluster.md quotes."""
 import copy
 import json
@@ -231,7 +230,3 @@ class Compared(unittest.TestCase):
         self.assertIn("REGRESSION torus:1152000, ranks 2, rcb, boxes 64: not in B\n", text)
         self.assertIn("changed torus:1152000, ranks 2, rcb, boxes 1: halo_sent_count of the rank with the most ", text)
         self.assertEqual(self.compared(allow_dirty=True, allow_missing=True)[1], 0)
-
-
-if __name__ == "__main__":
-    unittest.main()

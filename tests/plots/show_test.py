@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests what `show` prints for result files."""
 import copy
 import json
@@ -324,7 +323,3 @@ class OfAFile(unittest.TestCase):
     def test_a_counter_that_must_be_there_is_missed_in_a_sentence(self) -> None:
         raw = cell(operation="accuracy", accuracy={"axis": "sums", "method": "f32"})
         self.assertRegex(self.show(document(raw), code=3), "^bvhbench: .* a cell has no 'sah_cost'\n$")
-
-
-if __name__ == "__main__":
-    unittest.main()

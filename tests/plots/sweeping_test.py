@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests a sweep's product, its plan and shards."""
 import json
 import unittest
@@ -182,7 +181,3 @@ class Parts(unittest.TestCase):
         self.assertEqual([(cell["status"], cell["reason"]) for cell in plan["impossible"]],
                          [("skipped", "oibvh-wide4 keeps its boxes in its own way")])
         self.assertEqual(len(plan["parts"]), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tests that tables fit a terminal and have colours there, and are whole and plain elsewhere."""
 import os
 import pty
@@ -146,7 +145,3 @@ class Show(InFolder):
         made["cells"][0]["scene"]["name"] = "\x1b[31mred"
         self.written(made)
         self.assertIn("\\x1b[31mred", self.piped())
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Tests `bvhbench data`: its list, and downloads by file:// addresses.
-
-Usage: data_test.py <source root>
-"""
+"""Tests `bvhbench data`: its list, and downloads by file:// addresses."""
 import hashlib
 import os
 import pathlib
@@ -11,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONTENT = b"ply\n" + bytes(range(256)) * 50
 SUM = hashlib.sha256(CONTENT).hexdigest()
 COLUMNS = "name kind triangles vertices objects frames files sha256 url stand_ins licence source note"
@@ -76,7 +72,3 @@ class Data(unittest.TestCase):
     def test_the_real_list_can_be_read(self) -> None:
         done = subprocess.run([sys.executable, ROOT / "plots", "data"], capture_output=True, text=True, check=True, timeout=600)
         self.assertRegex(done.stdout, r"(?m)^bunny +144046 ")
-
-
-if __name__ == "__main__":
-    unittest.main()
