@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
 
 #include "geometry/error.h"
@@ -17,6 +19,14 @@ std::string refusal_of(const auto& work)
     } catch (const Error& error) {
         return error.what();
     }
+}
+
+/// Whether `text` has `part` in it; a failure shows both.
+inline testing::AssertionResult contains(const std::string& text, const std::string& part)
+{
+    if (text.find(part) != text.npos)
+        return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "'" << text << "' lacks '" << part << "'";
 }
 
 }  // namespace bvhbench

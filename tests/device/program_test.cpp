@@ -30,8 +30,7 @@ TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
 TEST(Sources, AreEmbeddedInTheProgram)
 {
     EXPECT_EQ(Sources::embedded().origin(), "embedded");
-    EXPECT_NE(Sources::embedded().flatten({"device/limits.cl"}).find("kernel void"),
-              std::string::npos);
+    EXPECT_TRUE(contains(Sources::embedded().flatten({"device/limits.cl"}), "kernel void"));
 }
 
 TEST_F(Compiling, CompileOnceForTheSameTextAndDefines)
@@ -54,8 +53,7 @@ TEST_F(Compiling, FailWithTheFileTheLineAndTheOptions)
         FAIL() << "it built";
     } catch (const BuildFailure& failure) {
         const std::string message = failure.what();
-        EXPECT_NE(message.find("k.cl did not build with -cl-std=CL1.2"), std::string::npos)
-            << message;
+        EXPECT_TRUE(contains(message, "k.cl did not build with -cl-std=CL1.2"));
         EXPECT_NE(message.find("GROUP_SIZE=64u"), std::string::npos) << message;
         // NVIDIA's driver (580.159) ignores #line directives and counts the directive itself as line 1.
         const bool has_line = message.find("k.cl:3") != std::string::npos ||

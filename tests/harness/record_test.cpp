@@ -34,8 +34,7 @@ TEST(Record, KeepsAStageWithNothingToLaunchOnTheDevicesClock)
 {
     Cell cell = fake_cell();
     cell.samples = {{0, {{"hierarchy", 0, 0, 0, 0, 0}}}};
-    EXPECT_NE(cell_text(cell).find(R"({"stage":"hierarchy","launches":0,"busy_ns":0,)"),
-              std::string::npos);
+    EXPECT_TRUE(contains(cell_text(cell), R"({"stage":"hierarchy","launches":0,"busy_ns":0,)"));
 }
 
 TEST(Record, SaysOnlyWhyForACellWithoutNumbers)
@@ -44,8 +43,7 @@ TEST(Record, SaysOnlyWhyForACellWithoutNumbers)
     cell.status = Cell::Status::failed;
     cell.reason = "out of device memory";
     const std::string text = cell_text(cell);
-    EXPECT_NE(text.find(R"("status":"failed","reason":"out of device memory"})"),
-              std::string::npos);
+    EXPECT_TRUE(contains(text, R"("status":"failed","reason":"out of device memory"})"));
     EXPECT_EQ(text.find("samples"), std::string::npos);
 }
 

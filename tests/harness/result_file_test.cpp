@@ -96,19 +96,17 @@ TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
 TEST_F(ResultFileTest, OfALaterRunKeepsWhatIsThereAndNamesBothRuns)
 {
     leave_killed(path_);
-    EXPECT_NE(refusal_of<BadUsage>([&] {
-                  ResultFile(resumed(path_), false, Resuming{}, "");
-              }).find("did not end"),
-              std::string::npos);
+    const std::string why =
+        refusal_of<BadUsage>([&] { ResultFile(resumed(path_), false, Resuming{}, ""); });
+    EXPECT_TRUE(contains(why, "did not end"));
     Json run = fake_run();
     run["id"] = "later";
     {
         ResultFile file(resumed(path_), false, Resuming{.is_asked = true}, "");
         EXPECT_FALSE(file.has_begun());
         EXPECT_EQ(file.next_order(), 0) << "of its own run there are no samples";
-        EXPECT_NE(
-            refusal_of<BadUsage>([&] { file.check_earlier({"0123"}, run); }).find("1 of 2 parts"),
-            std::string::npos);
+        EXPECT_TRUE(contains(refusal_of<BadUsage>([&] { file.check_earlier({"0123"}, run); }),
+                             "1 of 2 parts"));
         file.check_earlier({"0123", "4567", "89ab"}, run);
         EXPECT_TRUE(file.take_part("0123"));
         file.begin(run);

@@ -13,6 +13,7 @@
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
 #include "tests/folder.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 
@@ -81,13 +82,6 @@ inline void hold_parts(const std::string& name, uint parts, bool no_others = fal
             EXPECT_EQ(0, std::memcmp(&mesh.points[i], &points[mesh.vertices[i]], sizeof(Point)));
     }
     EXPECT_EQ(next, faces.size());
-}
-
-inline testing::AssertionResult contains(const std::string& text, const std::string& part)
-{
-    if (text.find(part) != text.npos)
-        return testing::AssertionSuccess();
-    return testing::AssertionFailure() << "'" << text << "' lacks '" << part << "'";
 }
 
 /// Returns this machine's data folder; empty if there is none.
