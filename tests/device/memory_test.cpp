@@ -19,9 +19,10 @@ Pieces take(Arena& arena)
             arena.take<cl_uchar>(5, Use::tree)};
 }
 
-TEST(Arena, PredictsWhatItHandsOut)
+using ArenaOfADevice = OnDevice;
+
+TEST_F(ArenaOfADevice, PredictsWhatItHandsOut)
 {
-    const Device device = open_device("");
     Arena measuring = Arena::measuring(device);
     EXPECT_EQ(take(measuring).a.cl()(), nullptr) << "measuring allocates nothing";
     EXPECT_EQ(measuring.used().tree_bytes, 4005u);
@@ -33,10 +34,8 @@ TEST(Arena, PredictsWhatItHandsOut)
     EXPECT_THROW(arena.take<cl_uchar>(1, Use::scratch), std::logic_error);
 }
 
-TEST(Arena, HandsOutPiecesThatDoNotOverlap)
+TEST_F(ArenaOfADevice, HandsOutPiecesThatDoNotOverlap)
 {
-    const Device device = open_device("");
-    const Queue queue(device);
     Arena measuring = Arena::measuring(device);
     take(measuring);
     Arena arena = Arena::reserved(device, measuring.used());
@@ -52,9 +51,8 @@ TEST(Arena, HandsOutPiecesThatDoNotOverlap)
     EXPECT_EQ(pieces.c.download(queue.cl()), std::vector<cl_uchar>(5, cl_uchar{9}));
 }
 
-TEST(Device, HasRoomForNoMoreThanAnAllocationHoldsUnlessItIsNeeded)
+TEST_F(ArenaOfADevice, HasRoomForNoMoreThanAnAllocationHoldsUnlessItIsNeeded)
 {
-    Device device = open_device("");
     device.allocation_limit = 4000;
     EXPECT_EQ(device.room_for(100, 16), 100u);
     EXPECT_EQ(device.room_for(1000, 16), 250u) << "a guess is cut";
@@ -63,11 +61,9 @@ TEST(Device, HasRoomForNoMoreThanAnAllocationHoldsUnlessItIsNeeded)
     EXPECT_EQ(device.room_for(std::uint64_t{1} << 40, 1), 4000u);
 }
 
-TEST(Arena, AllocatesPieceByPieceWhatTheDeviceDoesNotAtOnce)
+TEST_F(ArenaOfADevice, AllocatesPieceByPieceWhatTheDeviceDoesNotAtOnce)
 {
-    Device device = open_device("");
     device.allocation_limit = 4000;
-    const Queue queue(device);
     Arena measuring = Arena::measuring(device);
     take(measuring);
     ASSERT_GT(measuring.used().total(), device.most_at_once());
@@ -87,10 +83,8 @@ TEST(Arena, AllocatesPieceByPieceWhatTheDeviceDoesNotAtOnce)
                     {"4000 bytes are needed in one piece", "gives 3999"});
 }
 
-TEST(Arena, GivesEmptyPiecesWithoutMemory)
+TEST_F(ArenaOfADevice, GivesEmptyPiecesWithoutMemory)
 {
-    const Device device = open_device("");
-    const Queue queue(device);
     Arena arena = Arena::reserved(device, {});
     const Buffer<cl_uint> none = arena.take<cl_uint>(0, Use::tree);
     EXPECT_EQ(none.size(), 0u);
