@@ -72,16 +72,16 @@ TEST_F(LibraryPairs, GetRoomWhenTheyAreMore)
     }
 }
 
+constexpr std::pair<oibvh::Among, Among> amongs[] = {
+    {oibvh::Among::all, Among::all},
+    {oibvh::Among::between_objects, Among::between_objects},
+    {oibvh::Among::within_objects, Among::within_objects}};
+
 void expect_right(oibvh::Tree& tree, const Caller& caller, const ThreeObjects& objects,
                   const std::string& what)
 {
-    EXPECT_EQ(found_pairs(tree, caller), objects.right(Among::all)) << what;
-    EXPECT_EQ(found_pairs(tree, caller, oibvh::Among::between_objects),
-              objects.right(Among::between_objects))
-        << what;
-    EXPECT_EQ(found_pairs(tree, caller, oibvh::Among::within_objects),
-              objects.right(Among::within_objects))
-        << what;
+    for (const auto& [asked, among] : amongs)
+        EXPECT_EQ(found_pairs(tree, caller, asked), objects.right(among)) << what;
 }
 
 TEST_F(LibraryPairs, OfObjectsAreToldApart)
@@ -114,10 +114,6 @@ TEST_F(LibraryPairs, LeaveOutWhatAFilterDoes)
                    {{.groups = groups, .masks = masks}, {.excluded = {{0, 1}, {0, 2}}}},
                    {{.excluded = excluded, .groups = groups, .masks = masks},
                     {.excluded = {{0, 1}, {0, 2}, {1, 1}, {1, 2}}}}};
-    const std::pair<oibvh::Among, Among> amongs[] = {
-        {oibvh::Among::all, Among::all},
-        {oibvh::Among::between_objects, Among::between_objects},
-        {oibvh::Among::within_objects, Among::within_objects}};
     for (const char* collider : {"leaf", "group", "block", "bvtt"}) {
         oibvh::Tree tree(device, {.collider = collider});
         tree.build(objects.mesh.on_host(), objects.sizes);
