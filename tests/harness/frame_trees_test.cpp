@@ -163,11 +163,7 @@ TEST_P(OneTreeOverTheScene, FindsThePairsOfItsObjects)
 
 INSTANTIATE_TEST_SUITE_P(Colliders, OneTreeOverTheScene,
                          testing::Values("leaf", "bvtt", "group", "block", "front", "front-leaf"),
-                         [](const auto& collider) {
-                             std::string name = collider.param;
-                             std::erase(name, '-');
-                             return name;
-                         });
+                         [](const auto& collider) { return test_name(collider.param); });
 
 TEST(OneTree, GivesTheNarrowPhaseTheTrueFaces)
 {
