@@ -113,30 +113,24 @@ void enqueue(RadixSort& sort, const std::vector<uint>& words)
 
 class RadixSortContract : public testing::TestWithParam<Case> {
 protected:
-    void SetUp() override
-    {
-        sort_ = std::make_unique<RadixSort>(bench().programs, GetParam().bits, GetParam().shape);
-    }
-
-    void plan(std::size_t size) { ::bvhbench::plan(*sort_, size, GetParam().keeps_codes); }
+    void plan(std::size_t size) { ::bvhbench::plan(sort_, size, GetParam().keeps_codes); }
 
     void expect_equal_to_host(const std::vector<ulong>& codes)
     {
-        enqueue(*sort_, words_of(codes, GetParam().bits));
+        enqueue(sort_, words_of(codes, GetParam().bits));
         bench().queue.finish();
 
         const std::vector<uint> expected = host_sorted_ids(codes);
-        std::vector<ulong> sorted;
-        for (const uint id : expected)
-            sorted.push_back(codes[id]);
+        std::vector<ulong> sorted(codes.size());
+        std::ranges::transform(expected, sorted.begin(), [&](uint id) { return codes[id]; });
         // EXPECT_EQ would print millions of numbers.
-        EXPECT_TRUE(same_bits(from_device(sort_->ids()), expected));
+        EXPECT_TRUE(same_bits(from_device(sort_.ids()), expected));
         if (GetParam().keeps_codes) {
-            EXPECT_TRUE(same_bits(from_device(sort_->codes()), words_of(sorted, GetParam().bits)));
+            EXPECT_TRUE(same_bits(from_device(sort_.codes()), words_of(sorted, GetParam().bits)));
         }
     }
 
-    std::unique_ptr<RadixSort> sort_;
+    RadixSort sort_{bench().programs, GetParam().bits, GetParam().shape};
 };
 
 using RadixSortOfEverySize = RadixSortContract;
