@@ -60,6 +60,14 @@ void upload_end(Input& input, const Device& device, const Queue& queue,
     input.device_end_points = copied(device, queue, end_points, input.memory);
 }
 
+void upload_wide(Input& input, const Device& device, const Queue& queue,
+                 std::span<const WidePoint> points, std::span<const WidePoint> end_points)
+{
+    assert(points.size() == input.points.size() && end_points.size() == points.size());
+    input.wide = {points, end_points, copied(device, queue, points, input.memory),
+                  copied(device, queue, end_points, input.memory)};
+}
+
 Input upload_over(const Input& input, const Device& device, const Queue& queue,
                   std::span<const Face> faces, std::span<const FaceRange> objects)
 {

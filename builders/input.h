@@ -7,9 +7,18 @@
 #include "device/buffer.h"
 #include "device/queue.h"
 #include "geometry/mesh.h"
+#include "geometry/moving_query.h"
 #include "geometry/swept_box.h"
 
 namespace bvhbench {
+
+/// Vertices at the start and end of a step in doubles, for the narrow phase between two frames. `points` and `end_points` of the input
+/// are the floats nearest to them. Rounding to nearest keeps the order of coordinates, so boxes of floats overlap wherever those of
+/// doubles do, and no pair is lost.
+struct WideStep {
+    std::span<const WidePoint> points = {}, end_points = {};
+    Buffer<WidePoint> device_points = {}, device_end_points = {};
+};
 
 /// Triangles to build over, on the host and on the device. The harness moves them; that is never timed. Builders that run on
 /// the device alone do not read the host copies, which library callers may leave empty.
@@ -29,7 +38,10 @@ struct Input {
 
     std::vector<MemoryShare> memory = {};  ///< Memory accounting of the buffers.
 
+    WideStep wide = {};  ///< The vertices of both frames in doubles, if they are kept.
+
     uint triangle_count() const { return static_cast<uint>(device_faces.size()); }
+    bool is_wide() const { return !wide.points.empty(); }
     bool is_swept() const { return !end_points.empty() || device_end_points.size() > 0; }
 
     /// Returns the input swept from the points `low` to `high` of the device. Host points are not those: for builders and colliders of the
@@ -54,6 +66,10 @@ Input upload(const Device& device, const Queue& queue, std::span<const Point> po
 /// Copies the points of the next frame, so that boxes are swept from now on. Blocks.
 void upload_end(Input& input, const Device& device, const Queue& queue,
                 std::span<const Point> end_points);
+
+/// Copies the vertices of both frames in doubles. Blocks.
+void upload_wide(Input& input, const Device& device, const Queue& queue,
+                 std::span<const WidePoint> points, std::span<const WidePoint> end_points);
 
 /// Returns an input of other faces over the points of `input`, which are shared, not copied. Blocks.
 Input upload_over(const Input& input, const Device& device, const Queue& queue,

@@ -76,16 +76,15 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     check_narrow_of(options.method, is_swept() ? NarrowOf::step : NarrowOf::moment);
     const NarrowMethod& method = find_narrow_method(options.method);
     options_.method = method.name;  // refers to static storage
-    if (is_swept()) {
-        tolerance_ = method.tolerance * *options.swept_size;
-        filter_ = programs.kernel("collide/impacts/impacts.cl", "find_impacts",
-                                  {{"MOST_STEPS", most_steps}, {"REAL_BITS", 32}});
-        return;
-    }
     if (method.real_bits == 64 && !has_doubles_)
         throw Unavailable(
             std::string(method.name) +
             " needs doubles, and floats that are denormals, and the device lacks one of them");
+    if (is_swept()) {
+        tolerance_ = method.tolerance * *options.swept_size;
+        filter_ = compiled_impacts(method);
+        return;
+    }
     filter_ = compiled_filter(method);
     if (is_filter_ && !is_exact_)
         rest_ = programs.kernel("collide/narrow/narrow_undecided.cl", "keep_undecided");
@@ -111,6 +110,21 @@ cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
         is_filter_ ? "collide/narrow/narrow_chunks.cl" : "collide/narrow/rounded_chunks.cl";
     return programs_.kernel(verdict, by_groups() ? "collide/narrow/narrow_groups.cl" : chunks,
                             "filter_pairs", defines);
+}
+
+cl::Kernel NarrowPhase::compiled_impacts(const NarrowMethod& method)
+{
+    std::vector<Define> defines = {{"MOST_STEPS", most_steps}, {"REAL_BITS", method.real_bits}};
+    if (method.real_bits == 32) {
+        if (options_.is_wide)
+            throw BadUsage("the vertices are in doubles, and the narrow phase " +
+                           std::string(method.name) +
+                           " rounds them to floats, which can miss what touches: take one that is "
+                           "called ccd-f64-*");
+        return programs_.kernel("collide/impacts/impacts.cl", "find_impacts", defines);
+    }
+    defines.push_back({"WIDE_POINTS", options_.is_wide ? 1u : 0u});
+    return programs_.kernel("collide/wide_impacts/wide_impacts.cl", "find_wide_impacts", defines);
 }
 
 void NarrowPhase::reserve(std::size_t triangles)
@@ -187,9 +201,15 @@ void NarrowPhase::find_impacts(const Input& input, const Buffer<Pair>& candidate
 {
     queue.begin("narrow");
     queue.clear(counters_.cl(), counters_.bytes());
-    set_arguments(filter_, input.device_points, input.device_end_points, input.device_faces,
-                  candidates, candidate_counters, static_cast<uint>(candidates.size()), contacts_,
-                  times_, static_cast<uint>(contacts_.size()), tolerance_, counters_);
+    const auto set_for = [&](const auto& points, const auto& end_points) {
+        set_arguments(filter_, points, end_points, input.device_faces, candidates,
+                      candidate_counters, static_cast<uint>(candidates.size()), contacts_, times_,
+                      static_cast<uint>(contacts_.size()), tolerance_, counters_);
+    };
+    if (options_.is_wide)
+        set_for(input.wide.device_points, input.wide.device_end_points);
+    else
+        set_for(input.device_points, input.device_end_points);
     queue.launch(filter_, items_for(candidates.size(), swept_groups_per_unit),
                  by_groups() ? group_size_ : 1, 0);
 }

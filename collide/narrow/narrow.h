@@ -34,6 +34,8 @@ struct NarrowOptions {
     /// Of a swept input: the longest side of the box around both frames, which tolerances are shares of. Must be set for the
     /// methods for swept boxes, and for no others.
     std::optional<float> swept_size = std::nullopt;
+    /// Of a swept input: whether its vertices are in doubles (Input::is_wide), which only methods in doubles read.
+    bool is_wide = false;
 };
 
 /// Results of a query, by the arithmetic that decided: by_floats, by_doubles and exactly add up to the candidates.
@@ -64,7 +66,8 @@ struct NarrowCounts {
 /// The number of candidates stays on the device. No contact is dropped silently: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
-    /// Throws BadUsage as check_narrow and check_narrow_of do, and Unavailable if the method needs doubles or denormals that the device lacks.
+    /// Throws BadUsage as check_narrow and check_narrow_of do, and for a method in floats over doubles, and Unavailable if the method needs
+    /// doubles or denormals that the device lacks.
     NarrowPhase(Programs& programs, const NarrowOptions& options);
 
     /// Reserves memory for about as many contacts as triangles. Never timed. Throws Unavailable.
@@ -99,6 +102,7 @@ public:
 private:
     bool by_groups() const { return form_ == KernelForm::groups; }
     cl::Kernel compiled_filter(const NarrowMethod& method);
+    cl::Kernel compiled_impacts(const NarrowMethod& method);
     std::size_t items_for(std::size_t pairs, std::size_t groups_per_unit) const;
     void take_all();
     void find_impacts(const Input& input, const Buffer<Pair>& candidates,

@@ -23,6 +23,13 @@ std::vector<Impact> touching_on_the_way(std::span<const Point>, std::span<const 
     throw Unavailable("this build has no CGAL to tell what touches between two frames");
 }
 
+std::vector<Impact> touching_on_the_way(std::span<const WidePoint>, std::span<const WidePoint>,
+                                        std::span<const Face> faces,
+                                        std::span<const Pair> candidates, Checked* checked)
+{
+    return touching_on_the_way(std::span<const Point>(), {}, faces, candidates, checked);
+}
+
 std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery>, Checked*)
 {
     throw Unavailable("this build has no CGAL to tell when features touch");

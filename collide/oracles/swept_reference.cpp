@@ -176,6 +176,33 @@ void for_each(std::size_t count, Checked* checked, const Work& work)
 }
 
 WidePoint wide(Point p) { return {p.x, p.y, p.z}; }
+WidePoint wide(WidePoint p) { return p; }
+
+template <class P>
+std::vector<Impact> touching_pairs(std::span<const P> points, std::span<const P> end_points,
+                                   std::span<const Face> faces, std::span<const Pair> candidates,
+                                   Checked* checked)
+{
+    require_host_memory("checking the contacts between frames", candidates.size_bytes());
+    std::vector<std::vector<Impact>> parts(candidates.size() / at_once + 1);
+    for_each(candidates.size(), checked, [&](std::size_t k, Checked& ours) {
+        const Face a = faces[candidates[k].a], b = faces[candidates[k].b];
+        if (share_a_vertex(a, b))
+            return;
+        const bool of_edges = b.b == b.c;
+        const auto vertices = [&](std::span<const P> at) {
+            return std::array{wide(at[a.a]), wide(at[of_edges ? a.b : b.a]),
+                              wide(at[of_edges ? b.a : b.b]), wide(at[of_edges ? b.b : b.c])};
+        };
+        const MovingQuery query{vertices(points), vertices(end_points), of_edges};
+        if (const auto time = impact_time(query, 1, ours))
+            parts[k / at_once].push_back({candidates[k], time->no_later});
+    });
+    std::vector<Impact> found;
+    for (const std::vector<Impact>& part : parts)
+        found.insert(found.end(), part.begin(), part.end());
+    return found;
+}
 
 }  // namespace
 
@@ -203,25 +230,15 @@ std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Face> faces,
                                         std::span<const Pair> candidates, Checked* checked)
 {
-    require_host_memory("checking the contacts between frames", candidates.size_bytes());
-    std::vector<std::vector<Impact>> parts(candidates.size() / at_once + 1);
-    for_each(candidates.size(), checked, [&](std::size_t k, Checked& ours) {
-        const Face a = faces[candidates[k].a], b = faces[candidates[k].b];
-        if (share_a_vertex(a, b))
-            return;
-        const bool of_edges = b.b == b.c;
-        const auto vertices = [&](std::span<const Point> at) {
-            return std::array{wide(at[a.a]), wide(at[of_edges ? a.b : b.a]),
-                              wide(at[of_edges ? b.a : b.b]), wide(at[of_edges ? b.b : b.c])};
-        };
-        const MovingQuery query{vertices(points), vertices(end_points), of_edges};
-        if (const auto time = impact_time(query, 1, ours))
-            parts[k / at_once].push_back({candidates[k], time->no_later});
-    });
-    std::vector<Impact> found;
-    for (const std::vector<Impact>& part : parts)
-        found.insert(found.end(), part.begin(), part.end());
-    return found;
+    return touching_pairs(points, end_points, faces, candidates, checked);
+}
+
+std::vector<Impact> touching_on_the_way(std::span<const WidePoint> points,
+                                        std::span<const WidePoint> end_points,
+                                        std::span<const Face> faces,
+                                        std::span<const Pair> candidates, Checked* checked)
+{
+    return touching_pairs(points, end_points, faces, candidates, checked);
 }
 
 }  // namespace bvhbench

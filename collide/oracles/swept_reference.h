@@ -30,6 +30,13 @@ std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Pair> candidates,
                                         Checked* checked = nullptr);
 
+/// As above, of vertices in doubles.
+std::vector<Impact> touching_on_the_way(std::span<const WidePoint> points,
+                                        std::span<const WidePoint> end_points,
+                                        std::span<const Face> faces,
+                                        std::span<const Pair> candidates,
+                                        Checked* checked = nullptr);
+
 /// When two features touch first: at a time from no_sooner to no_later, both from 0 to 1.
 struct ImpactTime {
     double no_sooner, no_later;

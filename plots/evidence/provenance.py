@@ -33,7 +33,8 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
 OF_WITHIN = {"within": ("collide/within/", "collide/narrow/")}
-OF_SWEPT = {"narrow between frames": ("collide/impacts/", "collide/moving/advance"), "narrow of queries": ("collide/moving/",)}  # in place of `narrow`
+OF_SWEPT = {"narrow between frames": ("collide/impacts/", "collide/moving/advance"), "narrow of queries": ("collide/moving/",),
+            "narrow in doubles": ("collide/wide_impacts/", "collide/moving/")}  # in place of `narrow`
 OF_FILTERS = {"narrow of filters": ("collide/narrow/", UNDECIDED)}  # the same
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`
@@ -98,9 +99,12 @@ def is_of_many(cell: Cell) -> bool:
 
 def narrow_of(cell: Cell) -> str:
     """Returns the entry of STAGES, OF_SWEPT or OF_FILTERS that a cell's stage `narrow` is."""
-    if {cell.accuracy.get("method"), cell.raw.get("collider", {}).get("options", {}).get("narrow")} & set(FILTERS):
+    method = cell.raw.get("collider", {}).get("options", {}).get("narrow", "")
+    if {cell.accuracy.get("method"), method} & set(FILTERS):
         return "narrow of filters"
-    return "narrow of queries" if cell.accuracy.get("axis") == "queries" else "narrow between frames" if cell.swept else "narrow"
+    if cell.accuracy.get("axis") == "queries":
+        return "narrow of queries"
+    return "narrow" if not cell.swept else "narrow in doubles" if method.startswith("ccd-f64") else "narrow between frames"
 
 
 def works(document: dict[str, Any]) -> set[Work]:

@@ -35,7 +35,8 @@ METHODS = {
               | {f"boxes {name}": Look("#009E73", marker) for name, marker in (("f64", "^"), ("f16", "D"), ("u16", "s"), ("u8", "o"))}
               | {f"input {bits} bits": Look("#D55E00", marker) for bits, marker in ((20, "^"), (16, "s"), (12, "D"), (8, "o"))}
               | {"all coarse": Look("#CC79A7", "P")},
-    "impacts": {"ccd-1e-2": Look("#D55E00", "v"), "ccd-1e-4": Look("#E69F00", "s"), "ccd-1e-6": Look("#0072B2", "o")},
+    "impacts": {"ccd-1e-2": Look("#D55E00", "v"), "ccd-1e-4": Look("#E69F00", "s"), "ccd-1e-6": Look("#0072B2", "o"),
+                "ccd-f64-1e-4": Look("#CC79A7", "s"), "ccd-f64-1e-6": Look("#009E73", "o")},
     "distance": {"exact": Look("#000000", "*"), "within-f64": Look("#0072B2", "o"), "within-f32": Look("#56B4E9", "v"),
                  "within-capsules": Look("#009E73", "D"), "within-spheres": Look("#E69F00", "s"),
                  "within-rounded-boxes": Look("#CC79A7", "^"), "within-boxes": Look("#D55E00", "P")},

@@ -11,6 +11,7 @@
 
 #include "collide/oracles/swept_reference.h"
 #include "geometry/error.h"
+#include "scenes/generate/vector.h"
 #include "tests/collide/narrow_testing.h"
 
 namespace bvhbench {
@@ -174,20 +175,9 @@ TEST_P(Impacts, AreAllFoundOutsideTheRangeOfTheBounds)
     for (const float scale : {0x1p-140f, 0x1p-110f, 0x1p105f, 0x1p124f})
         EXPECT_EQ(found_by("ccd-1e-6", GetParam(), cases(scale, 0), scale).size(),
                   std::size(by_hand));
-}
-
-using Vector = std::array<double, 3>;
-
-Vector plus(const Vector& u, double share, const Vector& v)
-{
-    return {u[0] + share * v[0], u[1] + share * v[1], u[2] + share * v[2]};
-}
-
-double dot(const Vector& u, const Vector& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
-
-Vector cross(const Vector& u, const Vector& v)
-{
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    for (const float scale : {0x1p-140f, 0x1p-110f, 0x1p105f, 0x1p124f})  // in doubles they do
+        EXPECT_EQ(found_by("ccd-f64-1e-6", GetParam(), cases(scale, 0), scale).size(),
+                  found_by("ccd-f64-1e-6", GetParam(), cases(1, 0), 1).size());
 }
 
 /// Returns the distance of the features of pair k at a time: that of the origin from the hull of the differences of vertices,
@@ -196,28 +186,24 @@ double distance(const Motions& all, std::size_t k, double time)
 {
     const auto at = [&](std::size_t i) {
         const Point p = all.from[4 * k + i], q = all.to[4 * k + i];
-        const Vector from = {p.x, p.y, p.z}, to = {q.x, q.y, q.z};
-        return plus(from, time, plus(to, -1, from));
+        return vector_of(p) + time * (vector_of(q) - vector_of(p));
     };
     const bool of_edges = all.is_of_edges(k);
-    const std::array hull = of_edges ? std::array{plus(at(2), -1, at(0)), plus(at(2), -1, at(1)),
-                                                  plus(at(3), -1, at(1)), plus(at(3), -1, at(0))}
-                                     : std::array{plus(at(1), -1, at(0)), plus(at(2), -1, at(0)),
-                                                  plus(at(3), -1, at(0)), plus(at(3), -1, at(0))};
-    const Vector normal = cross(plus(hull[1], -1, hull[0]), plus(hull[2], -1, hull[0]));
-    double least = std::sqrt(dot(hull[0], hull[0]));
+    const std::array hull =
+        of_edges ? std::array{at(2) - at(0), at(2) - at(1), at(3) - at(1), at(3) - at(0)}
+                 : std::array{at(1) - at(0), at(2) - at(0), at(3) - at(0), at(3) - at(0)};
+    const Vector normal = cross(hull[1] - hull[0], hull[2] - hull[0]);
+    double least = length(hull[0]);
     bool is_inside = dot(normal, normal) > 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const Vector from = hull[i], to = hull[(i + 1) % 4], side = plus(to, -1, from);
+        const Vector from = hull[i], to = hull[(i + 1) % 4], side = to - from;
         const double share =
             dot(side, side) > 0 ? std::clamp(-dot(from, side) / dot(side, side), 0.0, 1.0) : 0;
-        const Vector nearest = plus(from, share, side);
-        least = std::min(least, std::sqrt(dot(nearest, nearest)));
+        const Vector nearest = from + share * side;
+        least = std::min(least, length(nearest));
         is_inside = is_inside && dot(cross(from, to), normal) >= 0;
     }
-    return is_inside
-               ? std::min(least, std::abs(dot(normal, hull[0])) / std::sqrt(dot(normal, normal)))
-               : least;
+    return is_inside ? std::min(least, std::abs(dot(normal, hull[0])) / length(normal)) : least;
 }
 
 /// Returns the least distance of pair k over the step, at most half a thousandth of the longest way too large.
@@ -337,6 +323,13 @@ TEST(ImpactPhase, IsForSweptBoxesAndOthersAreNot)
 {
     EXPECT_THROW(NarrowPhase(bench().programs, {.method = "ccd-1e-4"}), BadUsage);
     EXPECT_THROW(NarrowPhase(bench().programs, {.method = "exact", .swept_size = 1.0f}), BadUsage);
+    EXPECT_THROW(
+        NarrowPhase(bench().programs, {.method = "ccd-1e-4", .swept_size = 1.0f, .is_wide = true}),
+        BadUsage);
+    EXPECT_THROW(
+        NarrowPhase(bench().programs,
+                    {.method = "ccd-f64-1e-4", .without_doubles = true, .swept_size = 1.0f}),
+        Unavailable);
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, Impacts, testing::ValuesIn(both_forms), form_test_name);

@@ -65,6 +65,11 @@ class Kernels(InFolder):
         self.assertEqual(provenance.Work("embree-low", "", ("bounds", "hierarchy")).places(True), {"builders/stages/bounds"})
         self.assertEqual(provenance.Work("none", "culbvh", ("build", "broad")).places(False), set())
 
+    def test_of_steps_depend_on_their_precision(self) -> None:
+        for narrow, stage in (("ccd-1e-6", "narrow between frames"), ("ccd-f64-1e-6", "narrow in doubles")):
+            raw = cell("oibvh-multi", swept={"pairs": "edge-edge"}, collider={"name": "group", "options": {"narrow": narrow}})
+            self.assertEqual(provenance.narrow_of(provenance.Cell(raw)), stage)
+
     def test_of_one_rank_are_not_those_of_an_exchange(self) -> None:
         for ranks, place in ((1, "cluster/top_boxes"), (2, "cluster/")):
             cell = {"experiment": "cluster", "scene": {"name": "torus:9"}, "builder": {"name": "oibvh-multi"}, "operation": "cluster",
@@ -74,7 +79,7 @@ class Kernels(InFolder):
             self.assertEqual("cluster/" in work.places(False), ranks > 1)
 
     def test_have_places_that_are_there(self) -> None:
-        tables = (provenance.STAGES, provenance.OF_RANKS, provenance.BUILDERS, provenance.COLLIDERS)
+        tables = (provenance.STAGES, provenance.OF_RANKS, provenance.OF_SWEPT, provenance.BUILDERS, provenance.COLLIDERS)
         places = [path for table in tables for paths in table.values() for path in paths]
         kernels = [str(path.relative_to(ROOT)) for ending in ("*.cl", "*.clh") for path in ROOT.rglob(ending)]
         self.assertEqual([place for place in places if not any(path.startswith(place) for path in kernels)], [])
