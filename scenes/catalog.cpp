@@ -102,7 +102,7 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
         FileMesh file = read_mesh_file(path, library);
         scene.frames.push_back(std::move(file.mesh.points));
         if (!file.floats_hold)
-            scene.rounding = round_frames({&file.wide, 1}, library.doubles, scene.frames);
+            take_doubles(scene, {std::move(file.wide)}, library.doubles);
         take_mesh(scene, std::move(file));
     }
     scene.source = path_in_library(path, library);

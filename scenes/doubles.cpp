@@ -29,7 +29,20 @@ struct Extent {
     // Halves both ends before adding, so that no sum overflows.
     double middle() const { return low <= high ? 0.5 * low + 0.5 * high : 0; }
     double half() const { return low <= high ? 0.5 * high - 0.5 * low : 0; }
+    /// Returns the middle with so few digits that subtracting it is often exact: a multiple of a power of two above half of the extent.
+    double short_middle() const
+    {
+        const double unit = half() > 0 ? std::ldexp(1.0, std::ilogb(half()) + 1) : 0;
+        return unit > 0 ? std::nearbyint(middle() / unit) * unit : middle();
+    }
 };
+
+/// True if x - offset has no rounding error: the error is itself a double, which four more operations give [Shewchuk1997].
+bool is_exact(double x, double offset)
+{
+    const double moved = x - offset, taken = x - moved;
+    return (x - (moved + taken)) + (taken - offset) == 0;
+}
 
 /// Returns 0 if floats of this size are normal and twice the size is one too; else the power of two that scales it to about 1.
 int scale_for(double largest)
@@ -39,6 +52,21 @@ int scale_for(double largest)
     const int exponent = std::ilogb(largest);
     const bool fits = exponent < 126 && exponent - 23 >= -126;
     return fits ? 0 : -exponent;
+}
+
+/// Returns an offset near the middle along an axis whose subtraction is exact for all coordinates; 0 if that of short_middle is not.
+double exact_offset(std::span<const std::vector<WidePoint>> wide, double WidePoint::*axis)
+{
+    Extent extent;
+    for (const std::vector<WidePoint>& points : wide)
+        for (const WidePoint& point : points)
+            extent.grow(point.*axis);
+    const double offset = extent.short_middle();
+    for (const std::vector<WidePoint>& points : wide)
+        for (const WidePoint& point : points)
+            if (!is_exact(point.*axis, offset))
+                return 0;
+    return offset;
 }
 
 /// Moves and scales `x`, and rounds it to the nearest float.
@@ -69,15 +97,15 @@ float counted(float rounded, double x, double offset, Rounding& rounding)
 
 std::string_view doubles_name(Doubles how)
 {
-    return how == Doubles::recentred ? "recentred" : "as-is";
+    return how == Doubles::recentred ? "recentred" : how == Doubles::as_is ? "as-is" : "kept";
 }
 
 Doubles doubles_called(std::string_view name)
 {
-    for (const Doubles how : {Doubles::recentred, Doubles::as_is})
+    for (const Doubles how : {Doubles::recentred, Doubles::as_is, Doubles::kept})
         if (doubles_name(how) == name)
             return how;
-    throw BadUsage("doubles are read recentred or as-is, not '" + std::string(name) + "'");
+    throw BadUsage("doubles are read recentred, as-is or kept, not '" + std::string(name) + "'");
 }
 
 std::string rounding_text(const Rounding& rounding)
@@ -86,14 +114,16 @@ std::string rounding_text(const Rounding& rounding)
         return "floats hold all coordinates";
     std::string text = "doubles, rounded to floats as they are";
     std::array<char, 200> part{};
-    if (*rounding.how == Doubles::recentred) {
+    if (*rounding.how != Doubles::as_is) {
         const WidePoint offset = rounding.offset;
-        std::snprintf(part.data(), part.size(), "doubles, recentred by (%.17g, %.17g, %.17g)",
+        const bool is_kept = *rounding.how == Doubles::kept;
+        std::snprintf(part.data(), part.size(), "doubles, %s by (%.17g, %.17g, %.17g)",
+                      is_kept ? "kept for steps between frames, moved exactly" : "recentred",
                       offset.x, offset.y, offset.z);
         text = part.data();
         if (rounding.scale_log2 != 0)
             text += ", scaled by 2^" + std::to_string(rounding.scale_log2);
-        text += " and rounded to floats";
+        text += is_kept ? ", and rounded to floats for all else" : " and rounded to floats";
     }
     std::snprintf(part.data(), part.size(), "%.3g", rounding.largest_error);
     return text + ": " + std::to_string(rounding.rounded_count) + " coordinates are off, by " +
@@ -116,6 +146,9 @@ Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,
         rounding.offset = {x.middle(), y.middle(), z.middle()};
         rounding.scale_log2 = scale_for(std::max({x.half(), y.half(), z.half()}));
     }
+    if (how == Doubles::kept)
+        for (double WidePoint::*const axis : {&WidePoint::x, &WidePoint::y, &WidePoint::z})
+            rounding.offset.*axis = exact_offset(wide, axis);
     const auto made = [&](float as_is, double x, double offset) {
         const float rounded =
             how == Doubles::as_is ? as_is : nearest(x, offset, rounding.scale_log2);

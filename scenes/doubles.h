@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Conversion to floats of vertex coordinates that floats cannot hold exactly.
+// Conversion to floats of vertex coordinates that floats cannot hold exactly, or their keeping in doubles.
 //
 // Rounded directly, vertices far from the origin fall onto the coarse grid that floats have there, and disjoint boxes may touch
 // (docs/accuracy.md, Input). If the middle of their box is subtracted first, in doubles, they keep nearly the full precision of
@@ -23,9 +23,10 @@ namespace bvhbench {
 enum class Doubles {
     recentred,  ///< subtract the middle of the box of all frames, and scale if the result is out of the range of floats
     as_is,      ///< none
+    kept,  ///< subtract an offset where that is exact, and keep the doubles for steps between frames
 };
 
-/// Returns "recentred" or "as-is".
+/// Returns "recentred", "as-is" or "kept".
 std::string_view doubles_name(Doubles how);
 /// Inverse of doubles_name. Throws BadUsage, listing the known names, for any other name.
 Doubles doubles_called(std::string_view name);
@@ -45,7 +46,7 @@ std::string rounding_text(const Rounding& rounding);
 
 /// Converts `wide` to floats. On entry, `frames` holds the same vertices and frames, rounded as they are; on return, the
 /// converted ones. All frames share one offset and one scale, so vertices at rest remain at rest. Coordinates that are not
-/// finite, which no scene may have, become infinity or NaN.
+/// finite, which no scene may have, become infinity or NaN. `wide` is not changed: doubles that are kept are x - offset.
 Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,
                       std::vector<std::vector<Point>>& frames);
 

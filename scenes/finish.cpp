@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geometry/error.h"
 #include "geometry/hash.h"
@@ -35,6 +37,23 @@ void canonicalise(Scene& scene, std::vector<Point>& points)
     }
 }
 
+/// Frames are made, and vertices joined and cut, in floats: the doubles of such a scene would be others.
+void check_doubles(const Scene& scene)
+{
+    bool is_same = scene.wide.size() == scene.frames.size();
+    for (std::size_t frame = 0; is_same && frame < scene.frames.size(); ++frame)
+        is_same = std::ranges::equal(scene.wide[frame], scene.frames[frame],
+                                     [](const WidePoint& kept, const Point& point) {
+                                         return static_cast<float>(kept.x) == point.x &&
+                                                static_cast<float>(kept.y) == point.y &&
+                                                static_cast<float>(kept.z) == point.z;
+                                     });
+    if (!is_same)
+        refuse(scene,
+               "has doubles that cannot be kept, because its frames or vertices are changed in "
+               "floats: --doubles recentred and as-is round them");
+}
+
 void check_objects(const Scene& scene)
 {
     std::size_t covered = 0;
@@ -62,12 +81,26 @@ std::uint64_t content_hash(const Scene& scene)
         hash.value(std::uint64_t{points.size()});
         hash.values(std::span(points));
     }
+    for (const auto& points : scene.wide)
+        hash.values(std::span(points));
     for (const Scene& later : scene.later)
         hash.value(later.content_hash);
     return hash.get();
 }
 
 }  // namespace
+
+void take_doubles(Scene& scene, std::vector<std::vector<WidePoint>> wide, Doubles how)
+{
+    scene.rounding = round_frames(wide, how, scene.frames);
+    if (how != Doubles::kept)
+        return;
+    const WidePoint offset = scene.rounding.offset;
+    for (std::vector<WidePoint>& points : wide)
+        for (WidePoint& p : points)
+            p = {p.x - offset.x + 0.0, p.y - offset.y + 0.0, p.z - offset.z + 0.0};  // no -0
+    scene.wide = std::move(wide);
+}
 
 Scene finished(Scene scene)
 {
@@ -83,6 +116,8 @@ Scene finished(Scene scene)
                               std::to_string(scene.frames.front().size()) + " vertices");
         canonicalise(scene, points);
     }
+    if (!scene.wide.empty())
+        check_doubles(scene);
     if (!scene.frame_labels.empty() && scene.frame_labels.size() != scene.frame_count())
         refuse(scene, "has " + std::to_string(scene.frame_labels.size()) + " labels for " +
                           std::to_string(scene.frame_count()) + " frames");

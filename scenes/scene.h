@@ -37,7 +37,10 @@ struct Scene {
     std::vector<SceneObject> objects;  ///< at least one
     bool has_meshes = false;           ///< true if the source of the scene names these objects
     std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector per frame
-    std::vector<std::string> frame_labels;   ///< names of the frames in the source, or empty
+    /// The same positions in doubles, whose nearest floats `frames` are, for steps between frames. Empty unless floats could not hold
+    /// them and they were kept (Doubles::kept).
+    std::vector<std::vector<WidePoint>> wide;
+    std::vector<std::string> frame_labels;  ///< names of the frames in the source, or empty
     /// Number of triangle k in the file (or generator); empty: k. Set if triangles were reordered so that those of an object
     /// are consecutive (scenes/face_order.h).
     std::vector<uint> file_faces;
@@ -73,11 +76,14 @@ struct Scene {
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };
 
+/// Rounds the frames of a scene as round_frames does, whose doubles are `wide`, and keeps these with Doubles::kept.
+void take_doubles(Scene& scene, std::vector<std::vector<WidePoint>> wide, Doubles how);
+
 /// Validates a scene: turns negative zeros into positive ones, sets `content_hash`, and gives a scene without objects one
 /// object over all faces. `name` and `source` must be set.
 ///
 /// Throws Unavailable, in one sentence, if the scene has no triangles or frames, an index is out of range, a position is not
-/// finite, or the objects do not cover the faces in order.
+/// finite, the objects do not cover the faces in order, or `frames` were changed after their doubles were kept.
 Scene finished(Scene scene);
 
 }  // namespace bvhbench

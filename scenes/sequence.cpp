@@ -154,7 +154,7 @@ Scene read_numbered(const std::filesystem::path& folder, const SceneLibrary& lib
         scene.frame_labels.push_back(std::to_string(number));
     }
     if (!floats_hold)
-        scene.rounding = round_frames(wide_frames(files, library), library.doubles, scene.frames);
+        take_doubles(scene, wide_frames(files, library), library.doubles);
     if (!share_triangles)
         part_frames(scene, meshes);
     take_mesh(scene, std::move(meshes[0]));

@@ -68,9 +68,10 @@ void add_common(CLI::App& app, CommonOptions& common)
                    "BVHBENCH_DEVICE, else the first GPU, else the processor");
     app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
     app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
-    app.add_option(
-           "--doubles", common.doubles,
-           "recentred or as-is: how coordinates of a file that floats cannot hold are rounded")
+    app.add_option("--doubles", common.doubles,
+                   "recentred or as-is: how coordinates of a file that floats cannot hold are "
+                   "rounded; kept: "
+                   "steps between frames go by the doubles")
         ->capture_default_str();
     app.add_flag("--weld", common.weld,
                  "join vertices of equal position, so that triangles beside each other are "

@@ -106,8 +106,9 @@ std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input)
         see(pair.b);
     }
     const std::int64_t frames = input.is_swept() ? 2 : 1;
+    const std::int64_t point = input.is_wide() ? sizeof(WidePoint) : sizeof(Point);
     return std::count(faces.begin(), faces.end(), true) * std::int64_t{sizeof(Face)} +
-           std::count(points.begin(), points.end(), true) * frames * std::int64_t{sizeof(Point)};
+           std::count(points.begin(), points.end(), true) * frames * point;
 }
 
 void add_moved_bytes(std::vector<StageTime>& stages, std::string_view stage, std::int64_t bytes)

@@ -142,6 +142,8 @@ public:
         content_.value(oracle_version);
         content_.values(input.points);
         content_.values(input.end_points);
+        content_.values(input.wide.points);
+        content_.values(input.wide.end_points);
         content_.values(input.faces);
         content_.values(std::span<const FaceRange>(input.objects));
         content_.values(file_faces);
@@ -185,11 +187,15 @@ public:
                     stop_thread_at("contacts");
                     const std::span<const Pair> candidates = pairs.get().list.pairs();
                     progress.total = candidates.size();
+                    const auto touching = [&](auto points, auto end_points) {
+                        return Answer(pairs_of(touching_on_the_way(points, end_points, input_.faces,
+                                                                   candidates, &progress.done)),
+                                      file_faces_);
+                    };
+                    if (input_.is_wide())
+                        return touching(input_.wide.points, input_.wide.end_points);
                     if (input_.is_swept())
-                        return Answer(
-                            pairs_of(touching_on_the_way(input_.points, input_.end_points,
-                                                         input_.faces, candidates, &progress.done)),
-                            file_faces_);
+                        return touching(input_.points, input_.end_points);
                     if (choice.distance)
                         return Answer(
                             pairs_within(input_.points, input_.faces, candidates,

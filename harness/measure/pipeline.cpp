@@ -91,7 +91,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,
                                                           .form = collider.form,
-                                                          .swept_size = swept_size(input)});
+                                                          .swept_size = swept_size(input),
+                                                          .is_wide = input.is_wide()});
         narrow_->reserve(input.triangle_count());
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.

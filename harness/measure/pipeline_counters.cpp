@@ -16,6 +16,9 @@ void Pipeline::upload(const Input& input) const
     Buffer<Point> points = input.device_points, end_points = input.device_end_points;
     points.upload(queue, input.points);
     end_points.upload(queue, input.end_points);
+    WideStep wide = input.wide;
+    wide.device_points.upload(queue, wide.points);
+    wide.device_end_points.upload(queue, wide.end_points);
 }
 
 void Pipeline::read_back() const { has_contacts() ? contacts() : pairs(); }

@@ -49,7 +49,7 @@ void make_scene(FileMesh file)
     scene.name = scene.source = "fuzz";
     scene.frames.push_back(std::move(file.mesh.points));
     if (!file.floats_hold)
-        scene.rounding = round_frames({&file.wide, 1}, Doubles::recentred, scene.frames);
+        take_doubles(scene, {std::move(file.wide)}, Doubles::recentred);
     take_mesh(scene, std::move(file));
     scene = finished(std::move(scene));
     scene.facts = mesh_facts(scene, 8);

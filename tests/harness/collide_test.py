@@ -3,6 +3,7 @@
 import array
 import json
 import pathlib
+import random
 import sys
 
 from program import expect, main, only, run, valid
@@ -175,6 +176,30 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
         expect(2, *swept, *options, says=sentence)
     expect(2, *swept, "--frames", "1", says="has steps 0 to 0, not 1 to before 2")
     expect(3, "collide", "--scene", "torus:500", "--collider", "leaf", "--swept", says="bend:torus:500 has two")
+
+
+def test_collide_in_doubles_finds_touches_that_floats_lose_far_from_the_origin():
+    chance, touching, vertices, faces = random.Random(1), 0, ["", "", ""], ""
+    for k in range(60):  # a tilted face at rest, and a corner that comes to 1e-9 above or below its inside, and goes back
+        a, b, c, above = chance.random(), chance.random(), chance.random(), chance.choice((1e-9, -1e-9))
+        touching += above < 0
+        inside = a / 2 + (b + c) / 4
+        for frame, z in enumerate((inside + 1e-3, inside + above, inside + 1e-3)):
+            for point in ((0, 0, a), (1, 0, b), (0, 1, c), (.25, .25, z), (.5, .25, z + 1), (.25, .5, z + 1)):
+                vertices[frame] += f"v {1e6 + 4 * k + point[0]!r} {1e6 + point[1]!r} {1e6 + point[2]!r}\n"
+        faces += "".join(f"f {6 * k + n} {6 * k + n + 1} {6 * k + n + 2}\n" for n in (1, 4))
+    pathlib.Path("far").mkdir()
+    for frame, lines in enumerate(vertices):
+        pathlib.Path(f"far/{frame}.obj").write_text(lines + faces)
+    swept = ("collide", "--scene", "far/", "--collider", "leaf", "--samples", "1", "--swept", "--frames", "0:", "--pairs-of", "between",
+             "--json", "far.json", "--force", "--narrow")
+    for method, doubles in (("ccd-f64-1e-4", "kept"), ("ccd-f64-1e-6", "kept"), ("ccd-f64-1e-6", "recentred"), ("ccd-f64-1e-6", "as-is")):
+        expect(0, *swept, method, "--doubles", doubles, says="0 contacts missed, ")
+        for cell in valid("far.json")["cells"]:
+            right = cell["counters"]["contacts_count"] - cell["counters"]["false_count"]
+            assert cell["scene"]["doubles"]["how"] == doubles and (right == touching) == (doubles == "kept"), (cell, touching)
+    expect(4, *swept, "ccd-1e-6", "--doubles", "kept", says="take one that is called ccd-f64-*")
+    expect(3, *swept, "ccd-f64-1e-6", "--doubles", "kept", "--between", "1", says="has doubles that cannot be kept")
 
 
 sys.exit(main(globals()))

@@ -11,6 +11,7 @@
 
 #include "helpers.h"
 #include "scenes/formats/text.h"
+#include "scenes/generate/derived.h"
 
 namespace bvhbench {
 namespace {
@@ -255,6 +256,45 @@ TEST(Doubles, OfASequenceShareOneOffset)
     ASSERT_EQ(scene.frames.size(), 2u);
     EXPECT_EQ(std::memcmp(scene.frames[0].data(), scene.frames[1].data(), 3 * sizeof(Point)), 0);
     EXPECT_EQ(scene.frames[0][0].x, static_cast<float>(12.1 - scene.rounding.offset.x));
+}
+
+TEST(Doubles, KeptForStepsAreMovedExactlyAndLostByNoChange)
+{
+    const Folder folder;
+    std::vector<WidePoint> points = soup_at(far_off);
+    points[1] = points[0];
+    const std::string alone = folder.file("a0.ply", ply_of<double>(points, "double"));
+    for (WidePoint& p : points)
+        p.z += 1e-3;
+    folder.file("a1.ply", ply_of<double>(points, "double"));
+    Listening library;
+    library.doubles = Doubles::kept;
+    const Scene scene = load_scene(folder.path().string(), library);
+    EXPECT_TRUE(contains(library.told, "doubles, kept for steps between frames, moved exactly by"));
+    ASSERT_EQ(scene.wide.size(), 2u);
+    const WidePoint by = scene.rounding.offset;
+    EXPECT_NEAR(by.y, far_off.y, 10);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        EXPECT_EQ(scene.wide[1][k].y + by.y, points[k].y);
+        EXPECT_EQ(scene.wide[1][k].z + by.z, points[k].z);
+        EXPECT_EQ(scene.frames[1][k].z, rounded(scene.wide[1][k].z));
+    }
+    points[0].x = std::nextafter(points[0].x, 0);
+    folder.file("a1.ply", ply_of<double>(points, "double"));
+    const Scene other = load_scene(folder.path().string(), library);
+    EXPECT_EQ(scene.frames[1][0].x, other.frames[1][0].x);
+    EXPECT_NE(scene.content_hash, other.content_hash);
+    points[0].x = 0.1;  // now no offset is exact
+    folder.file("a1.ply", ply_of<double>(points, "double"));
+    EXPECT_EQ(load_scene(folder.path().string(), library).rounding.offset.x, 0);
+
+    const std::string why = "has doubles that cannot be kept";
+    for (const std::string& name :
+         {"bend:" + alone, "refine:" + alone + ":200", "outlier:" + alone + ":9:1"})
+        EXPECT_TRUE(contains(refusal(name, library), why)) << name;
+    library.weld = true;
+    EXPECT_TRUE(contains(refusal(alone, library), why));
+    EXPECT_THROW(with_frames_between(scene, 1), Unavailable);
 }
 
 }  // namespace
