@@ -14,6 +14,7 @@
 #include "harness/judge/hard_inputs.h"
 #include "harness/measure/cluster.h"
 #include "scenes/catalog.h"
+#include "tests/builders/stage_testing.h"
 #include "tests/cluster/rank_tests.h"
 
 namespace bvhbench {
@@ -42,19 +43,6 @@ std::vector<Pipeline> pipelines()
 
 class Frames : public testing::Test {
 protected:
-    static void SetUpTestSuite()
-    {
-        device = std::make_unique<Device>(open_device(""));
-        programs = std::make_unique<Programs>(*device);
-        queue = std::make_unique<Queue>(*device);
-    }
-    static void TearDownTestSuite()
-    {
-        queue.reset();
-        programs.reset();
-        device.reset();
-    }
-
     /// What the frames of a mesh are compared with: pairs by the oracle, contacts, or pairs within a distance, by the exact test of the host;
     /// at rank 0 only.
     struct Expected {
@@ -122,9 +110,9 @@ protected:
     static void expect_frame(const Expected& expected, const Share& share, const Pipeline& pipeline,
                              const std::string& name)
     {
-        const auto builder = make_builder(pipeline.builder, *programs);
-        const auto collider = make_collider(pipeline.collider, *programs);
-        DistributedFrame frame(*ranks, *programs, *queue, *builder, *collider,
+        const auto builder = make_builder(pipeline.builder, bench().programs);
+        const auto collider = make_collider(pipeline.collider, bench().programs);
+        DistributedFrame frame(*ranks, bench().programs, bench().queue, *builder, *collider,
                                PairTest{.narrow = "exact",
                                         .distance = expected.distance,
                                         .keep_adjacent = pipeline.collider.keep_adjacent});
@@ -148,15 +136,7 @@ protected:
         const Scene loaded = load_scene(name, {});
         return {loaded.frames.front(), loaded.faces};
     }
-
-    static std::unique_ptr<Device> device;
-    static std::unique_ptr<Programs> programs;
-    static std::unique_ptr<Queue> queue;
 };
-
-std::unique_ptr<Device> Frames::device;
-std::unique_ptr<Programs> Frames::programs;
-std::unique_ptr<Queue> Frames::queue;
 
 TEST_F(Frames, OfScenesHaveThePairsOfTheOracle)
 {
@@ -237,8 +217,3 @@ TEST_F(Frames, AreJudgedByListsOrByFactsAlone)
 
 }  // namespace
 }  // namespace bvhbench
-
-int main(int argc, char** argv)
-{
-    return bvhbench::run_rank_tests(argc, argv, std::size_t{1} << 30);
-}

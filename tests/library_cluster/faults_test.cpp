@@ -115,8 +115,3 @@ TEST(ClusterLibraryFaults, OfOneRankAreErrorsOfAll)
 
 }  // namespace
 }  // namespace bvhbench
-
-int main(int argc, char** argv)
-{
-    return bvhbench::run_rank_tests(argc, argv, bvhbench::usual_most_at_once);
-}

@@ -67,10 +67,8 @@ protected:
         expect_frame(tree, mesh, options, name + " of all ranks");
     }
 
-    static std::unique_ptr<Caller> caller;
+    inline static std::unique_ptr<Caller> caller;
 };
-
-std::unique_ptr<Caller> ClusterLibrary::caller;
 
 TEST_F(ClusterLibrary, HasThePairsOfATree)
 {
@@ -244,8 +242,3 @@ TEST_F(ClusterLibrary, TakesAnyCommunicator)
 
 }  // namespace
 }  // namespace bvhbench
-
-int main(int argc, char** argv)
-{
-    return bvhbench::run_rank_tests(argc, argv, bvhbench::usual_most_at_once);
-}

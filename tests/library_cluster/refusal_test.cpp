@@ -223,8 +223,3 @@ TEST_F(ClusterLibraryRefuses, TooLittleMemoryOfOneRankOnAllRanks)
 
 }  // namespace
 }  // namespace bvhbench
-
-int main(int argc, char** argv)
-{
-    return bvhbench::run_rank_tests(argc, argv, bvhbench::usual_most_at_once);
-}
