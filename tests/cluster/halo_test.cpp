@@ -49,42 +49,29 @@ std::vector<Pair> brute_pairs(std::span<const Aabb> boxes)
     return pairs;
 }
 
-/// Boxes of ranks, if rank part[k] owns box k, and all tops that they tell.
-struct Owned {
-    Owned(std::span<const Aabb> boxes, std::span<const uint> part, uint ranks)
-        : ids(ranks), boxes(ranks)
-    {
-        for (uint k = 0; k < part.size(); ++k) {
-            ids[part[k]].push_back(k);
-            this->boxes[part[k]].push_back(boxes[k]);
-        }
-        for (const std::vector<Aabb>& of_rank : this->boxes)
-            std::ranges::copy(tops_of(of_rank), std::back_inserter(tops));
-    }
-
-    std::vector<Pair> leaving_from(uint rank) const
-    {
-        return leaving(boxes[rank], wanted_from(rank, tops, static_cast<uint>(boxes.size())));
-    }
-
-    std::vector<std::vector<uint>> ids;
-    std::vector<std::vector<Aabb>> boxes;
-    std::vector<Aabb> tops;
-};
-
 /// Returns the pairs that ranks find among `boxes`, rank after rank, if rank part[k] owns box k.
 std::vector<Pair> pairs_of_ranks(std::span<const Aabb> boxes, std::span<const uint> part,
                                  uint ranks)
 {
-    const Owned own(boxes, part, ranks);
+    std::vector<std::vector<uint>> ids(ranks);
+    std::vector<std::vector<Aabb>> own(ranks);
+    for (uint k = 0; k < boxes.size(); ++k) {
+        ids[part[k]].push_back(k);
+        own[part[k]].push_back(boxes[k]);
+    }
+    std::vector<Aabb> tops;
+    for (const std::vector<Aabb>& of_rank : own)
+        for (const Aabb& top : tops_of(of_rank))
+            tops.push_back(top);
     std::vector<Pair> found;
     for (uint rank = 0; rank < ranks; ++rank) {
-        for (const Pair pair : brute_pairs(own.boxes[rank]))
-            found.push_back({own.ids[rank][pair.a], own.ids[rank][pair.b]});
-        for (const Pair& one : own.leaving_from(rank))
-            for (const uint other : own.ids[one.b])
-                if (overlap(own.boxes[rank][one.a], boxes[other]))
-                    found.push_back({own.ids[rank][one.a], other});
+        for (const Pair pair : brute_pairs(own[rank]))
+            found.push_back({ids[rank][pair.a], ids[rank][pair.b]});
+        for (const Pair& one :
+             leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size()))))
+            for (const uint other : ids[one.b])
+                if (overlap(own[rank][one.a], boxes[other]))
+                    found.push_back({ids[rank][one.a], other});
     }
     return found;
 }
@@ -143,10 +130,16 @@ TEST(Halo, IsSmallIfPartsAreBoxes)
     on_ranks(1, [&](Ranks& ranks) {
         part = partitioned({centres, ids}, PartitionBy::rcb, 8, ranks);
     });
-    const Owned own(boxes, part, 8);
+    std::vector<std::vector<Aabb>> own(8);
+    for (uint k = 0; k < boxes.size(); ++k)
+        own[part[k]].push_back(boxes[k]);
+    std::vector<Aabb> tops;
+    for (const std::vector<Aabb>& of_rank : own)
+        for (const Aabb& top : tops_of(of_rank))
+            tops.push_back(top);
     std::size_t left = 0;
     for (uint rank = 0; rank < 8; ++rank)
-        left += own.leaving_from(rank).size();
+        left += leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size()))).size();
     EXPECT_GT(left, 0u);
     EXPECT_LT(left, boxes.size() / 20);
 }
