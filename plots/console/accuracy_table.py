@@ -98,7 +98,7 @@ def narrow(cells: list[Cell]) -> str:
         own = ns_a_pair(cell) if cell.has_times else None
         return [*must(cell, "pairs_count", "meeting_count", "missed_count", "false_count"),
                 sizes([cell], "missed_depth"), sizes([cell], "false_gap"),
-                f"{100 * exactly / pairs:.1f} %" if pairs and (exactly := cell.counters.get("narrow_exact_count")) is not None else "",
+                f"{100 * cell.counters['narrow_exact_count'] / pairs:.1f} %" if pairs and cell.accuracy["method"] in NARROW else "",
                 f"{own:.2f}" if own is not None else "",
                 f"{spread.ratio(own, beside):.2f}" if own is not None and beside is not None else ""]
 

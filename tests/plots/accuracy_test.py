@@ -110,10 +110,10 @@ class Figures(InFolder):
         cells[0]["check"]["verdict"] = "differs"
         with self.assertRaises(results.Refused):
             self.run_of(cells)
-        cells[0]["check"]["verdict"] = "agrees"
+        cells = self.axis("boxes")
         cells[1]["accuracy"]["method"] = "guess"
         with self.assertRaisesRegex(results.Refused, "no look for the method 'guess'"):
-            catalog.pictures_of(self.run_of(cells))["accuracy-narrow"]()
+            catalog.pictures_of(self.run_of(cells))["accuracy-boxes"]()
 
     def test_a_file_without_an_axis_has_none(self) -> None:
         self.assertEqual(accuracy.draws_of(results.load(GOLDEN / "table1.json")), {})

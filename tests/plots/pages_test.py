@@ -308,7 +308,7 @@ class OfGoldenFiles(unittest.TestCase):
         self.assertEqual(sorted(set(re.findall(r"^seed \d+$", accuracy_table.text(axes), re.M))), ["seed 1"])
         self.assertIn("guigue-f64: 8,000 missed and 40 false of 150,000 pairs, wrong in 2 of 3 classes\n", accuracy_table.text(axes))
         self.assertRegex(accuracy_table.text(axes), r"\ngeneric +filter-f64\+exact +50,000 +20,000 +0 +0 +0.0 % +19.30 +0.41  agrees\n")
-        self.assertRegex(accuracy_table.text(axes), r"\nunc_cloth_ball +input 8 bits +2 +990 us +1,600,000 +158,000 +26,000 +700,000  counted\n")
+        self.assertRegex(accuracy_table.text(axes), r"\nunc_cloth_ball +input 8 bits +2 +990 us +1,600,000 +158,000 +26,000 +700,000 +counted\n")
         self.assertEqual(accuracy_table.text(results.everything(GOLDEN / "table1.json")), "")
         found = results.everything(GOLDEN / "stress.json")
         self.assertEqual(show.pages(found), stress_table.text(found))
