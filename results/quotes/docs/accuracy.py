@@ -56,6 +56,13 @@ def frames(doc: Document) -> None:
           if method not in ("exact", "boxes f64", "boxes f16", "input 20 bits"))])
 
 
+    by_bits = [cell.counters for cell in file.cells if cell.accuracy["method"] == "input 16 bits"]
+    doc.says("Of the {} contacts that 16 bits miss", sum(cell["missed_count"] for cell in by_bits))
+    doc.says("{} of the frame's longest side", max(cell.get("missed_depth_most", 0) for cell in by_bits))
+    cloth = {method: sum(cell.counters["false_count"] for cell in file.frames("unc_cloth_ball", f"frames, narrow {method}")) for method in ("filter-f64", "none")}
+    doc.says("`filter-f64` has {} false contacts, `none` {}", *cloth.values())
+
+
 def queries(doc: Document) -> None:
     cells, of_h200 = (File(f"{machine}/accuracy-queries").cells for machine in ("pocl-2-cores", "h200"))
     sets = {"ccd_wang2021": "by hand", "ccd_scalable": "simulated"}

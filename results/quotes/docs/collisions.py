@@ -133,7 +133,17 @@ def worlds(doc: Document) -> None:
         [pipeline, *(f"{those[pipeline, scene]:,}" for those in found for scene in scenes)] for pipeline in dict.fromkeys(key for key, _ in found[0])))
 
 
+def features(doc: Document) -> None:
+    cells = File("h200/within-features").cells
+    of = {(cell.scene, cell.raw.get("features", {}).get("pairs", "triangles")): cell for cell in cells}
+    kinds = "vertex-face", "edge-edge", "triangles"
+    doc.table("features", f"< scene | {' | '.join(f'{kind} | pairs' for kind in kinds)}", (
+        [f"`{scene}`", *(value for kind in kinds for value in (us(of[scene, kind]), of[scene, kind].counters["contacts_count"]))]
+        for scene in dict.fromkeys(cell.scene for cell in cells)))
+
+
 def quotes(doc: Document) -> None:
+    features(doc)
     cards(doc)
     doc.says("{} cells on an H200 and {} on two cores found", *map(agreeing, ("h200", "pocl-2-cores")))
     file = File("h200/table2")
