@@ -117,10 +117,11 @@ std::string rounding_text(const Rounding& rounding)
     if (*rounding.how != Doubles::as_is) {
         const WidePoint offset = rounding.offset;
         const bool is_kept = *rounding.how == Doubles::kept;
-        std::snprintf(part.data(), part.size(), "doubles, %s by (%.17g, %.17g, %.17g)",
-                      is_kept ? "kept for steps between frames, moved exactly" : "recentred",
-                      offset.x, offset.y, offset.z);
-        text = part.data();
+        text = is_kept ? "doubles, kept for steps between frames" : "doubles";
+        std::snprintf(part.data(), part.size(), ", %s by (%.17g, %.17g, %.17g)",
+                      is_kept ? "moved exactly" : "recentred", offset.x, offset.y, offset.z);
+        if (!is_kept || offset.x != 0 || offset.y != 0 || offset.z != 0)
+            text += part.data();
         if (rounding.scale_log2 != 0)
             text += ", scaled by 2^" + std::to_string(rounding.scale_log2);
         text += is_kept ? ", and rounded to floats for all else" : " and rounded to floats";
