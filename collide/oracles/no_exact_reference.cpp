@@ -35,6 +35,11 @@ std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery>
     throw Unavailable("this build has no CGAL to tell when features touch");
 }
 
+std::vector<std::optional<ImpactTime>> impact_times(const Input&, std::span<const Pair>)
+{
+    return impact_times(std::span<const MovingQuery>());
+}
+
 std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const MovingQuery> queries)
 {
     return impact_times(queries);

@@ -178,6 +178,20 @@ void for_each(std::size_t count, Checked* checked, const Work& work)
 WidePoint wide(Point p) { return {p.x, p.y, p.z}; }
 WidePoint wide(WidePoint p) { return p; }
 
+/// Returns the features of a pair as they move.
+template <class P>
+MovingQuery query_of(std::span<const P> points, std::span<const P> end_points,
+                     std::span<const Face> faces, Pair pair)
+{
+    const Face a = faces[pair.a], b = faces[pair.b];
+    const bool of_edges = b.b == b.c;
+    const auto vertices = [&](std::span<const P> at) {
+        return std::array{wide(at[a.a]), wide(at[of_edges ? a.b : b.a]),
+                          wide(at[of_edges ? b.a : b.b]), wide(at[of_edges ? b.b : b.c])};
+    };
+    return {vertices(points), vertices(end_points), of_edges};
+}
+
 template <class P>
 std::vector<Impact> touching_pairs(std::span<const P> points, std::span<const P> end_points,
                                    std::span<const Face> faces, std::span<const Pair> candidates,
@@ -186,15 +200,9 @@ std::vector<Impact> touching_pairs(std::span<const P> points, std::span<const P>
     require_host_memory("checking the contacts between frames", candidates.size_bytes());
     std::vector<std::vector<Impact>> parts(candidates.size() / at_once + 1);
     for_each(candidates.size(), checked, [&](std::size_t k, Checked& ours) {
-        const Face a = faces[candidates[k].a], b = faces[candidates[k].b];
-        if (share_a_vertex(a, b))
+        if (share_a_vertex(faces[candidates[k].a], faces[candidates[k].b]))
             return;
-        const bool of_edges = b.b == b.c;
-        const auto vertices = [&](std::span<const P> at) {
-            return std::array{wide(at[a.a]), wide(at[of_edges ? a.b : b.a]),
-                              wide(at[of_edges ? b.a : b.b]), wide(at[of_edges ? b.b : b.c])};
-        };
-        const MovingQuery query{vertices(points), vertices(end_points), of_edges};
+        const MovingQuery query = query_of(points, end_points, faces, candidates[k]);
         if (const auto time = impact_time(query, 1, ours))
             parts[k / at_once].push_back({candidates[k], time->no_later});
     });
@@ -214,6 +222,16 @@ std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery>
         times[k] = impact_time(queries[k], precise, ours);
     });
     return times;
+}
+
+std::vector<std::optional<ImpactTime>> impact_times(const Input& input, std::span<const Pair> pairs)
+{
+    std::vector<MovingQuery> queries;
+    for (const Pair pair : pairs)
+        queries.push_back(
+            input.is_wide() ? query_of(input.wide.points, input.wide.end_points, input.faces, pair)
+                            : query_of(input.points, input.end_points, input.faces, pair));
+    return impact_times(queries);
 }
 
 std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const MovingQuery> queries)

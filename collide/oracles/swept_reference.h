@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "builders/input.h"
 #include "collide/oracles/exact_reference.h"
 #include "collide/pairs.h"
 #include "geometry/moving_query.h"
@@ -48,7 +49,11 @@ struct ImpactTime {
 std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery> queries,
                                                     Checked* checked = nullptr);
 
-/// As above by algebraic numbers alone, without the intervals that save most of the time: for tests of the above.
+/// The same of pairs of features that move from the first to the end points of a swept input, or from its doubles if it has them.
+std::vector<std::optional<ImpactTime>> impact_times(const Input& input,
+                                                    std::span<const Pair> pairs);
+
+/// As the first by algebraic numbers alone, without the intervals that save most of the time: for tests of the above.
 std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const MovingQuery> queries);
 
 inline PairList pairs_of(const std::vector<Impact>& impacts)

@@ -1,16 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/frame_verdict.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "collide/narrow/narrow_methods.h"
 #include "collide/oracles/exact_reference.h"
+#include "collide/oracles/swept_reference.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/measure/device_verdict.h"
 
 namespace bvhbench {
+namespace {
+
+/// Writes how far the times of some contacts between two frames are before the exact ones. None may be later.
+void judge_times(const Pipeline& pipeline, const Input& input, Cell& cell)
+{
+    constexpr std::size_t most = 1000;  ///< contacts, spread over all
+    const PairList contacts(pipeline.contacts());
+    const std::vector<float> times = pipeline.impact_times();
+    const std::size_t step = contacts.size() / most + 1;
+    std::vector<Pair> some;
+    std::vector<double> gaps;
+    for (std::size_t k = 0; k < contacts.size(); k += step)
+        some.push_back(contacts.pairs()[k]);
+    const std::vector<std::optional<ImpactTime>> right = impact_times(input, some);
+    for (std::size_t k = 0; k < some.size(); ++k)
+        if (right[k])
+            gaps.push_back(right[k]->no_later - times[k * step]);
+    if (gaps.empty())
+        return;
+    std::ranges::sort(gaps);
+    if (gaps.front() < 0)
+        cell.check.find_wrong("a touch is said to be later than it is");
+    cell.counters["gap_median"] = gaps[gaps.size() / 2];
+    cell.counters["gap_99_percent"] = gaps[gaps.size() * 99 / 100];
+}
+
+}  // namespace
 
 /// The pairs or contacts that a pipeline found. They are kept only if their hash differs from that of the oracle's list.
 class FrameVerdict::FoundList {
@@ -223,6 +252,8 @@ void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& f
         cell.counters["distance_error_median"] = off[off.size() / 2];
         cell.counters["distance_error_most"] = off.back();
     }
+    if (is_swept && !own)
+        judge_times(pipeline, frame_.input, cell);
     if (!is_swept && !is_within && contacts.is_right())
         cell.counters["touching_count"] = static_cast<double>(expected.facts().touching);
 }

@@ -198,6 +198,7 @@ def test_collide_in_doubles_finds_touches_that_floats_lose_far_from_the_origin()
         for cell in valid("far.json")["cells"]:
             right = cell["counters"]["contacts_count"] - cell["counters"]["false_count"]
             assert cell["scene"]["doubles"]["how"] == doubles and (right == touching) == (doubles == "kept"), (cell, touching)
+            assert doubles != "kept" or 0 <= cell["counters"]["gap_median"] <= cell["counters"]["gap_99_percent"] <= 1, cell
     expect(4, *swept, "ccd-1e-6", "--doubles", "kept", says="take one that is called ccd-f64-*")
     expect(3, *swept, "ccd-f64-1e-6", "--doubles", "kept", "--between", "1", says="has doubles that cannot be kept")
 
