@@ -18,6 +18,10 @@ def quotes(doc: Document) -> None:
         [scene, own[0].swept["pairs"], own[0].counters["contacts_count"] - own[0].counters["false_count"], us(own[0], "broad") * 1e-3,
          *(value for cell in own for value in (us(cell, "narrow") * 1e-3, cell.counters["false_count"]))]
         for scene in (*SCENES, "ipc_rod_twist", "ipc_thick_cloth") for own in zip(*(impacts.frames(scene, f"impacts, {name}") for name in tolerances), strict=True)))
+    both = "ccd-1e-6", "ccd-f64-1e-6"
+    doc.table("early", f"< sequence | {' | '.join(f'`{name}`: median | 99 %' for name in both)}", (
+        [scene, *(f"{max(cell.counters[key] for cell in impacts.frames(scene, f'impacts, {name}')):.1e}"
+                  for name in both for key in ("gap_median", "gap_99_percent"))] for scene in (*SCENES, "ipc_rod_twist", "ipc_thick_cloth")))
     kept, rounded = File("h200/steps-in-doubles").cells, impacts.frames("ipc_rod_twist", "impacts, ccd-1e-6")
     doc.says("both queries take {} ms with `kept` and `ccd-f64-1e-6`, of which the narrow phase has {}, with {} false contacts",
              *(sum(us(cell, *stages) for cell in kept) * 1e-3 for stages in ((), ("narrow",))), sum(cell.counters["false_count"] for cell in kept))
