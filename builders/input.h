@@ -48,11 +48,11 @@ struct Input {
     /// device alone.
     Input between(const Buffer<Point>& low, const Buffer<Point>& high) const
     {
-        Input wide = *this;
-        wide.device_points = low;
-        wide.device_end_points = high;
-        wide.end_points = points;  // as many as there are, and not swept
-        return wide;
+        Input swept = *this;
+        swept.device_points = low;
+        swept.device_end_points = high;
+        swept.end_points = points;  // as many as there are, and not swept
+        return swept;
     }
 
     /// Returns the bytes of points that boxes are computed from.
