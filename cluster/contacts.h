@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,11 @@ public:
     /// Takes the rank's triangles and reserves memory. Never timed. Throws Unavailable.
     void take(const Share& share, Queue& queue);
 
-    /// Returns the input of the rank's triangles that its tree is built over. Does not block.
-    Input boxed(const Input& input, Queue& queue) { return own_.boxed(input, queue); }
+    /// Pads the input of the rank's triangles, as PairDecider::padded.
+    std::optional<Input> padded(const Input& input, Queue& queue)
+    {
+        return own_.padded(input, queue);
+    }
 
     /// Takes the halo of the next frame. Blocks.
     void bring(const Share& share, std::span<const HaloTriangle> halo,

@@ -56,6 +56,7 @@ void DistributedFrame::take(Share share)
 {
     share_ = std::move(share);
     input_.reset();
+    padded_.reset();
     halo_.clear();
     if (contacts_)
         contacts_->take(share_, queue_);
@@ -69,7 +70,7 @@ void DistributedFrame::take(Share share)
         throw BadUsage("builder " + std::string(builder_.card().name) +
                        " leaves its tree in host memory, and ranks test triangles of others on "
                        "their device");
-    collider_.reserve(tree_, boxed_);
+    collider_.reserve(tree_, boxed());
     tops_.reserve(*tree_);
     leaving_.own(share_);
     leaving_.reserve(nullptr, *input_);
@@ -79,7 +80,7 @@ void DistributedFrame::take(Share share)
             faces.push_back(share_.scene_face(k));
         halo_query_.own(std::move(faces));
     }
-    halo_query_.reserve(tree_, boxed_);
+    halo_query_.reserve(tree_, boxed());
 }
 
 void DistributedFrame::move(std::vector<Point> points)
@@ -112,7 +113,7 @@ RankFrame DistributedFrame::run()
     // The device goes on with the own triangles while the host reads which leave.
     start_selecting(wanted_from(ranks_.rank(), tops, ranks_.count()));
     if (has_tree()) {
-        collider_.query(tree_, boxed_, queue_of(in_self));
+        collider_.query(tree_, boxed(), queue_of(in_self));
         queue_.cl().flush();
     }
     const std::vector<Pair> leaving = selected();
@@ -125,7 +126,7 @@ RankFrame DistributedFrame::run()
     if (has_tree()) {
         start_halo();
         while (!collider_.complete(beside_)) {
-            collider_.query(tree_, boxed_, queue_of(in_self));
+            collider_.query(tree_, boxed(), queue_of(in_self));
             beside_.run_after(queue_);
         }
     }
@@ -152,8 +153,9 @@ RankFrame DistributedFrame::run()
 /// Builds the tree, which is null if it is not on the device.
 void DistributedFrame::build_tree(Queue& queue)
 {
-    boxed_ = contacts_ ? contacts_->boxed(*input_, queue) : *input_;
-    tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(boxed_, queue));
+    if (contacts_)
+        padded_ = contacts_->padded(*input_, queue);
+    tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(boxed(), queue));
 }
 
 /// Returns the boxes that this rank tells the others.
@@ -253,7 +255,7 @@ void DistributedFrame::start_halo()
         halo_query_.bring(halo_, beside_);
     beside_.run_after(queue_);
     if (!halo_.empty())
-        halo_query_.query(tree_, boxed_, queue_of(in_halo));
+        halo_query_.query(tree_, boxed(), queue_of(in_halo));
     queue_.cl().flush();
 }
 
@@ -264,7 +266,7 @@ void DistributedFrame::find_halo()
         return;
     if (has_tree()) {
         while (!halo_query_.complete(queue_))
-            halo_query_.query(tree_, boxed_, queue_of(in_halo));
+            halo_query_.query(tree_, boxed(), queue_of(in_halo));
         return;
     }
     for (uint k = 0; k < halo_.size(); ++k)

@@ -106,6 +106,7 @@ private:
         in_narrow
     };
     bool has_tree() const { return share_.triangle_count() > 1; }
+    const Input& boxed() const { return padded_ ? *padded_ : *input_; }
     void build_tree(Queue& queue);
     std::vector<Aabb> build();
     Aabb own_box(std::size_t k) const;
@@ -141,7 +142,7 @@ private:
     std::optional<RankContacts> contacts_;
     Share share_;
     std::optional<Input> input_;
-    Input boxed_;  ///< what the tree is over
+    std::optional<Input> padded_;  ///< what the tree is over, if there is a distance
     const DeviceTree* tree_ = nullptr;
     // Kept from frame to frame, because new pages take longer than the messages.
     std::vector<HaloTriangle> packed_, sent_;  ///< triangles that leave, as found and by rank

@@ -22,9 +22,9 @@ void PairDecider::reserve(std::size_t points, std::size_t triangles)
         meet_->reserve(triangles);
 }
 
-Input PairDecider::boxed(const Input& input, Queue& queue)
+std::optional<Input> PairDecider::padded(const Input& input, Queue& queue)
 {
-    return within_ ? within_->padded(input, queue) : input;
+    return within_ ? std::optional(within_->padded(input, queue)) : std::nullopt;
 }
 
 void PairDecider::decide(const Input& input, const DevicePairs& candidates, Queue& queue)

@@ -26,11 +26,11 @@ public:
     /// Throws what the narrow phases throw.
     PairDecider(Programs& programs, const PairTest& test);
 
-    /// Reserves memory for pairs of so many triangles, and to pad so many points if there is a distance. Never timed. Throws Unavailable.
+    /// Reserves memory: for the pairs of `triangles`, and if there is a distance to pad `points`. Never timed. Throws Unavailable.
     void reserve(std::size_t points, std::size_t triangles);
 
-    /// Returns the input whose boxes are to be tested: with room for the distance, if there is one. Does not block.
-    Input boxed(const Input& input, Queue& queue);
+    /// Returns the input with room for the distance, whose boxes are tested, if there is a distance; else nothing. Does not block.
+    std::optional<Input> padded(const Input& input, Queue& queue);
 
     /// Decides the candidates, which are complete. Blocks.
     void decide(const Input& input, const DevicePairs& candidates, Queue& queue);

@@ -3,11 +3,8 @@
 //
 // The narrow phase between two frames: which pairs of a vertex and a face, or of two edges, touch while all vertices move in
 // straight lines (advance.clh), all but those that share a vertex. Conservative: a pair that touches is always found.
-//
-// One kernel serves both forms: it has no barriers, and an atomic per pair that touches is cheap beside the test.
 #include "collide/found.clh"
 #include "collide/moving/advance.clh"
-#include "collide/narrow/narrow_words.h"
 
 static inline float3 difference(global const Point* points, const uint to, const uint from)
 {
@@ -57,29 +54,6 @@ static inline float impact_time(global const Point* points, global const Point* 
         .time;
 }
 
-/// Appends candidates that touch to `contacts`, and to `times` when they may do so first. `counters` must be zero.
-kernel void find_impacts(global const Point* points, global const Point* end_points,
-                         global const Face* faces, global const uint2* candidates,
-                         global const uint* candidate_counters, const uint candidate_room,
-                         global uint2* contacts, global float* times, const uint contact_room,
-                         const float tolerance, volatile global uint* counters)
-{
-    const uint count = count_in_room(candidate_counters, candidate_room);
-    uint looked_at = 0u;
-    for (ulong place = get_global_id(0); place < count; place += get_global_size(0)) {
-        ++looked_at;
-        const uint2 pair = candidates[place];
-        const Face first = faces[pair.x], second = faces[pair.y];
-        if (share_a_vertex(first, second))
-            continue;
-        const float time = impact_time(points, end_points, first, second, tolerance);
-        if (time > 1.0f)
-            continue;
-        const uint slot = add_wide(counters + CONTACTS_COUNT, 1u);
-        if (slot < contact_room) {
-            contacts[slot] = pair;
-            times[slot] = time;
-        }
-    }
-    add_wide(counters + NARROW_FLOAT_COUNT, looked_at);
-}
+typedef Point Vertices;
+#define LOOKED_AT NARROW_FLOAT_COUNT
+#include "collide/impacts/find_impacts.clh"

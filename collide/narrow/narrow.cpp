@@ -124,7 +124,7 @@ cl::Kernel NarrowPhase::compiled_impacts(const NarrowMethod& method)
         return programs_.kernel("collide/impacts/impacts.cl", "find_impacts", defines);
     }
     defines.push_back({"WIDE_POINTS", options_.is_wide ? 1u : 0u});
-    return programs_.kernel("collide/wide_impacts/wide_impacts.cl", "find_wide_impacts", defines);
+    return programs_.kernel("collide/wide_impacts/wide_impacts.cl", "find_impacts", defines);
 }
 
 void NarrowPhase::reserve(std::size_t triangles)

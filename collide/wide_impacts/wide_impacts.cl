@@ -9,7 +9,6 @@
 #define ANSWER 1
 #include "collide/found.clh"
 #include "collide/moving/queries.cl"
-#include "collide/narrow/narrow_words.h"
 #if HAS_DOUBLES
 
 #if WIDE_POINTS
@@ -45,22 +44,6 @@ static inline void hull_of(global const Coordinate* points, const Face first, co
     differences_of(at, of_edges, hull);
 }
 
-/// Returns when two features may touch, as Impact says. `tolerance` is a length.
-static inline double impact_time(global const Coordinate* points,
-                                 global const Coordinate* end_points, const Face first,
-                                 const Face second, const double tolerance)
-{
-    double3 start[4], end[4];
-    hull_of(points, first, second, start);
-    hull_of(end_points, first, second, end);
-    const double size = fmax(longest_in(start), longest_in(end));
-    if (!(size >= 0x1p-900 && size <= 0x1p900))  // outside it, the bounds on errors do not hold
-        return 0.0;
-    const double factor =
-        as_double((2045ul - (as_ulong(size) >> 52)) << 52);  // 2^k: all coordinates are below 1
-    return advance(scaled(start, factor), scaled(end, factor), tolerance * factor, 0).time;
-}
-
 /// Returns the largest float that is not above `time`, which is not negative.
 static inline float rounded_down(const double time)
 {
@@ -68,31 +51,25 @@ static inline float rounded_down(const double time)
     return as_float(as_uint(nearest) - ((double)nearest > time ? 1u : 0u));
 }
 
-/// Appends candidates that touch to `contacts`, and to `times` when they may do so first. `counters` must be zero.
-kernel void find_wide_impacts(global const Coordinate* points, global const Coordinate* end_points,
-                              global const Face* faces, global const uint2* candidates,
-                              global const uint* candidate_counters, const uint candidate_room,
-                              global uint2* contacts, global float* times, const uint contact_room,
-                              const float tolerance, volatile global uint* counters)
+/// Returns when two features may touch, as Impact says. `tolerance` is a length.
+static inline float impact_time(global const Coordinate* points,
+                                global const Coordinate* end_points, const Face first,
+                                const Face second, const double tolerance)
 {
-    const uint count = count_in_room(candidate_counters, candidate_room);
-    uint looked_at = 0u;
-    for (ulong place = get_global_id(0); place < count; place += get_global_size(0)) {
-        ++looked_at;
-        const uint2 pair = candidates[place];
-        const Face first = faces[pair.x], second = faces[pair.y];
-        if (share_a_vertex(first, second))
-            continue;
-        const double time = impact_time(points, end_points, first, second, tolerance);
-        if (time > 1.0)
-            continue;
-        const uint slot = add_wide(counters + CONTACTS_COUNT, 1u);
-        if (slot < contact_room) {
-            contacts[slot] = pair;
-            times[slot] = rounded_down(time);
-        }
-    }
-    add_wide(counters + NARROW_DOUBLE_COUNT, looked_at);
+    double3 start[4], end[4];
+    hull_of(points, first, second, start);
+    hull_of(end_points, first, second, end);
+    const double size = fmax(longest_in(start), longest_in(end));
+    if (!(size >= 0x1p-900 && size <= 0x1p900))  // outside it, the bounds on errors do not hold
+        return 0.0f;
+    const double factor =
+        as_double((2045ul - (as_ulong(size) >> 52)) << 52);  // 2^k: all coordinates are below 1
+    return rounded_down(
+        advance(scaled(start, factor), scaled(end, factor), tolerance * factor, 0).time);
 }
+
+typedef Coordinate Vertices;
+#define LOOKED_AT NARROW_DOUBLE_COUNT
+#include "collide/impacts/find_impacts.clh"
 
 #endif

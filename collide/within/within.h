@@ -52,7 +52,7 @@ public:
     /// Changes the distance of the queries from here on. Throws BadUsage as the constructor.
     void set_distance(double distance);
 
-    /// Reserves memory to pad so many points, and for pairs of so many triangles. Never timed. Throws Unavailable.
+    /// Reserves memory to pad `points`, and for the pairs of `triangles`. Never timed. Throws Unavailable.
     void reserve(std::size_t points, std::size_t triangles);
 
     /// Memory reserved at present.

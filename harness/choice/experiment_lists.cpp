@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// Stands for all methods from outside, of which there may be none.
+/// Stands for all methods from outside; there may be none.
 constexpr auto all_outside = "outside";
 constexpr std::int64_t most_triangles = std::int64_t{1} << 31, most_sizes = 1 << 24;
 

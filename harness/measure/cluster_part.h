@@ -44,7 +44,7 @@ inline std::uint64_t sum_of_all(std::uint64_t own, Ranks& ranks)
     return own;
 }
 
-/// Computes the distance that the task asks for, if it does, of a scene of which each rank has what is in its box `own`.
+/// Computes the distance that the task asks for, if it does. All ranks must call; each has a part of the scene, in the box `own`.
 void resolve_distance(ClusterTask& task, const Aabb& own, Ranks& ranks);
 
 /// Returns what a rank's narrow phase decides.

@@ -37,12 +37,13 @@ Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Poi
         builder->reserve(input.triangle_count());
         const PairTest test = test_of(pipeline.collider);
         std::optional<PairDecider> decider;
-        Input boxed = input;
+        std::optional<Input> padded;
         if (test.decides()) {
             decider.emplace(session.programs(), test);
             decider->reserve(points.size(), faces.size());
-            boxed = decider->boxed(input, queue);
+            padded = decider->padded(input, queue);
         }
+        const Input& boxed = padded ? *padded : input;
         const Tree& tree = builder->build(boxed, queue);
         collider->reserve(&tree, boxed);
         find_pairs(*collider, &tree, boxed, queue);

@@ -18,10 +18,9 @@ namespace {
 /// Writes how far the times of some contacts between two frames are before the exact ones. None may be later.
 void judge_times(const Pipeline& pipeline, const Input& input, Cell& cell)
 {
-    constexpr std::size_t most = 1000;  ///< contacts, spread over all
     const PairList contacts(pipeline.contacts());
     const std::vector<float> times = pipeline.impact_times();
-    const std::size_t step = contacts.size() / most + 1;
+    const std::size_t step = contacts.size() / 1000 + 1;  // at most 1,000, spread over all
     std::vector<Pair> some;
     std::vector<double> gaps;
     for (std::size_t k = 0; k < contacts.size(); k += step)

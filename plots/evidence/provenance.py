@@ -34,7 +34,7 @@ OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one r
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
 OF_WITHIN = {"within": ("collide/within/", "collide/narrow/")}
 OF_SWEPT = {"narrow between frames": ("collide/impacts/", "collide/moving/advance"), "narrow of queries": ("collide/moving/",),
-            "narrow in doubles": ("collide/wide_impacts/", "collide/moving/")}  # in place of `narrow`
+            "narrow in doubles": ("collide/wide_impacts/", "collide/impacts/find", "collide/moving/")}  # in place of `narrow`
 OF_FILTERS = {"narrow of filters": ("collide/narrow/", UNDECIDED)}  # the same
 OF_BUILDER = ("hierarchy", "refit", "build")
 OF_FRAME = ("bounds", "codes", "sort", "hierarchy", "boxes")  # of `bvhbench cluster`

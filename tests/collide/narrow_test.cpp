@@ -193,11 +193,10 @@ TEST(RoundedNarrow, LooksAtEachOfFewPairs)
 
 TEST(RoundedNarrow, RefusesCornersThatAreShared)
 {
-    EXPECT_THROW(NarrowPhase(bench().programs, {.method = "guigue-f64", .keep_adjacent = true}),
-                 BadUsage);
-    EXPECT_THROW(NarrowPhase(bench().programs, {.method = "guess"}), BadUsage);
-    EXPECT_THROW(NarrowPhase(bench().programs, {.method = "guigue-f64", .without_doubles = true}),
-                 Unavailable);
+    const auto make = [](const NarrowOptions& options) { NarrowPhase(bench().programs, options); };
+    EXPECT_THROW(make({.method = "guigue-f64", .keep_adjacent = true}), BadUsage);
+    EXPECT_THROW(make({.method = "guess"}), BadUsage);
+    EXPECT_THROW(make({.method = "guigue-f64", .without_doubles = true}), Unavailable);
     EXPECT_EQ(find_narrow_method("exact").name, "filter-f64+exact");
 }
 

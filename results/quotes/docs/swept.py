@@ -23,7 +23,7 @@ def quotes(doc: Document) -> None:
         [scene, *(f"{max(cell.counters[key] for cell in impacts.frames(scene, f'impacts, {name}')):.1e}"
                   for name in both for key in ("gap_median", "gap_99_percent"))] for scene in (*SCENES, "ipc_rod_twist", "ipc_thick_cloth")))
     kept, rounded = File("h200/steps-in-doubles").cells, impacts.frames("ipc_rod_twist", "impacts, ccd-1e-6")
-    doc.says("both queries take {} ms with `kept` and `ccd-f64-1e-6`, of which the narrow phase has {}, with {} false contacts",
+    doc.says("both queries take {} ms with `kept` and `ccd-f64-1e-6`, and their narrow phase {}, with {} false contacts",
              *(sum(us(cell, *stages) for cell in kept) * 1e-3 for stages in ((), ("narrow",))), sum(cell.counters["false_count"] for cell in kept))
     doc.says("by `ccd-1e-6` the narrow phase takes {} ms and has {}", sum(us(cell, "narrow") for cell in rounded) * 1e-3,
              sum(cell.counters["false_count"] for cell in rounded))
