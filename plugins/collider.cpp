@@ -36,6 +36,8 @@ public:
     {
         if (input.is_swept() && !offer_.method.steps)
             refuse("takes the triangles of one moment: it knows no swept boxes");
+        if (input.is_wide() && offer_.method.finds_contacts)
+            refuse("takes vertices in floats: it cannot tell what kept doubles touch");
         if (!keeps_adjacent_ && !offer_.method.steps)
             refuse("finds all pairs: it takes no 'adjacent'");
         if (!input.is_swept() && among_ != Among::all)
