@@ -116,7 +116,7 @@ void check_clocks(Programs& programs, Queue& queue)
     constexpr std::int64_t least_share = 4;
     const Copy copy(programs, queue, cpu_vectors);
     constexpr int most_late = 5;  // a busy host may stop this process for a second now and then
-    for (int launches = 1, late = 0;; launches *= late == 0 ? 2 : 1) {
+    for (int launches = 1, late = 0;;) {
         queue.begin("copy");
         for (int k = 0; k < launches; ++k)
             copy.launch(queue);
@@ -124,8 +124,9 @@ void check_clocks(Programs& programs, Queue& queue)
         queue.check_times();
         if (least_share * device_ns >= queue.wall_ns())
             return;
-        late += queue.wall_ns() >= longest_ns ? 1 : 0;
-        if (late == most_late)
+        if (queue.wall_ns() < longest_ns)
+            launches *= 2;
+        else if (++late == most_late)
             throw BadClock(true, "on the device's clock copies took " + std::to_string(device_ns) +
                                      " ns, and " + std::to_string(queue.wall_ns()) +
                                      " ns on the host's");
