@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "collide/best_pipeline.h"
 #include "collide/collider.h"
 #include "collide/counters.h"
 #include "collide/device_lists.h"
@@ -38,13 +39,10 @@ ObjectFilter internal(const Filter& filter)
 
 }  // namespace
 
-/// The defaults are the fastest colliders in the measurements of docs/collisions.md: `group`, with eight boxes at a time, on
-/// CPUs, and `block`, with 32 per warp, on NVIDIA GPUs. Other devices were not measured; they get `leaf`, in which each leaf
-/// traverses the tree by itself, because it needs neither warps nor much local memory.
 const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::string_view asked)
 {
     if (asked.empty())
-        asked = device.is_cpu() ? "group" : device.lets_groups_wait() ? "block" : "leaf";
+        asked = best_pipeline(device).collider;
     return find_called(colliders, asked, "collider of the library");
 }
 
@@ -60,16 +58,23 @@ Pairs Tree::Impl::found_by(Collider& from)
     return found(from.device_pairs(device->queue), from.counts(device->queue).pairs);
 }
 
+void Tree::Impl::require_triangles(const char* answers) const
+{
+    if (taker.are_boxes())
+        throw BadUsage(std::string("boxes have overlaps but no ") + answers +
+                       ": those are of triangles");
+}
+
 Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first,
                               std::optional<double> distance)
 {
     const ImplicitTree& own = standing("a query");
     const bvhbench::Among wanted = internal(among);
     filter.check(own.objects.size());
-    if (first && taker.are_boxes())
-        throw BadUsage("boxes have overlaps but no contacts: the first contact is of triangles");
-    if (distance && taker.are_boxes())
-        throw BadUsage("boxes have overlaps but no distances: those are of triangles");
+    if (first)
+        require_triangles("contacts");
+    if (distance)
+        require_triangles("distances");
     begin();
     std::optional<bvhbench::Input> wide;
     if (distance)
@@ -111,6 +116,25 @@ std::optional<Pair> Tree::first_contact(Among among, const Filter& filter)
         const std::vector<bvhbench::Pair> found = asked.pairs(own.device->queue);
         return found.empty() ? std::nullopt
                              : std::optional<Pair>({found.front().a, found.front().b});
+    });
+}
+
+Pairs Tree::find_contacts(Among among, const Filter& filter)
+{
+    return as_call(*impl_->device, [=, &filter, &own = *impl_] {
+        own.standing("a query");
+        own.require_triangles("contacts");
+        Queue& queue = own.device->queue;
+        const DevicePairs candidates =
+            own.queried(among, internal(filter), false).device_pairs(queue);
+        if (!own.narrow)
+            own.narrow.emplace(own.device->programs,
+                               NarrowOptions{.keep_adjacent = own.options.adjacent_pairs});
+        if (own.narrow->reserved().total() == 0)
+            own.narrow->reserve(own.taker.taken().triangle_count());
+        bvhbench::find_contacts(*own.narrow, own.taker.taken(), candidates.pairs,
+                                candidates.counters, queue);
+        return own.found(own.narrow->device_contacts(), own.narrow->counts(queue).contacts);
     });
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "collide/best_pipeline.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
 
@@ -11,12 +12,6 @@ namespace {
 
 constexpr Named<MakeBuilder> builders[] = {{"oibvh-single", make_oibvh_single},
                                            {"oibvh-multi", make_oibvh_multi}};
-
-/// Returns oibvh-single on GPUs whose work-groups may hand over work within a launch (0.8 of the time on an H200), else multi.
-std::string_view builder_for(const bvhbench::Device& device)
-{
-    return device.lets_groups_meet() && !device.is_cpu() ? "oibvh-single" : "oibvh-multi";
-}
 
 TreeUpdate internal(Update update)
 {
@@ -46,7 +41,7 @@ std::vector<T> downloaded(const cl::CommandQueue& queue, const Buffer<U>& buffer
 std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& options)
 {
     const std::string_view name =
-        options.builder.empty() ? builder_for(device.device) : options.builder;
+        options.builder.empty() ? best_pipeline(device.device).builder : options.builder;
     return find_called(builders, name, "builder of the library")
         .make(device.programs, {.order = options.order, .sorted_leaves = options.sorted_leaves});
 }
@@ -120,6 +115,7 @@ void Tree::build(const Input& input, std::span<const std::uint32_t> objects)
             for (Impl::Query& query : own.queries)  // freed before more is allocated
                 query = {};
             own.padded.free();
+            own.narrow.reset();
             own.builder->reserve_objects(wanted);
         }
         own.tree = &dynamic_cast<const ImplicitTree&>(own.builder->build(taken, own.device->queue));
@@ -203,7 +199,8 @@ std::size_t Tree::memory() const
 {
     return as_call(*impl_->device, [&own = *impl_] {
         std::size_t bytes = own.builder->reserved().total() + own.taker.memory() +
-                            own.joined.memory() + own.padded.memory();
+                            own.joined.memory() + own.padded.memory() +
+                            (own.narrow ? own.narrow->reserved().total() : 0);
         for (const Impl::Query& query : own.queries)
             if (query.collider)
                 bytes += query.collider->reserved().total();

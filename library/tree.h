@@ -16,6 +16,7 @@
 #include "builders/builder.h"
 #include "builders/implicit/tree.h"
 #include "collide/collider.h"
+#include "collide/narrow/narrow.h"
 #include "collide/within/within.h"
 #include "geometry/names.h"
 #include "library/input.h"
@@ -109,6 +110,9 @@ struct Tree::Impl {
     Collider& queried(Among among, ObjectFilter filter, bool first,
                       std::optional<double> distance = {});
 
+    /// Throws BadUsage, naming `answers`, unless the tree is over triangles.
+    void require_triangles(const char* answers) const;
+
     /// Returns the pairs of a query, and remembers them for `read_pairs`.
     Pairs found(DevicePairs pairs, std::uint64_t count);
     Pairs found_by(Collider& collider);
@@ -129,6 +133,7 @@ struct Tree::Impl {
     std::array<Query, 6> queries;  ///< by Among, for pairs, then up to the first contact
     JoinedTrees joined;
     PaddedTree padded;
+    std::optional<NarrowPhase> narrow;  ///< of contacts
     /// The last query's pairs, and their number.
     std::optional<std::pair<DevicePairs, std::uint64_t>> last_pairs;
 };

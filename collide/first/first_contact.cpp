@@ -5,6 +5,7 @@
 
 #include "collide/counters.h"
 #include "collide/device_lists.h"
+#include "collide/host_triangles.h"
 #include "collide/narrow/narrow.h"
 
 namespace bvhbench {
@@ -43,18 +44,17 @@ void FirstContact::decide(const Input& input, Buffer<Pair>& pairs, Buffer<uint>&
     queue.launch(decide_, items_, group_size_, 0);
 }
 
-/// As decide.cl. Reads the device's points and faces, since the host may have none.
+/// As decide.cl.
 void FirstContact::decide_on_host(const Input& input, Buffer<Pair>& pairs, Buffer<uint>& counters,
                                   const Queue& queue) const
 {
     std::vector<uint> words = counters.download(queue.cl());
     if (words[PAIRS_COUNT] == 0 && words[UNSURE_COUNT] > 0) {
-        const std::vector<Point> points = input.device_points.download(queue.cl());
-        const std::vector<Face> faces = input.device_faces.download(queue.cl());
+        const HostTriangles here(input, queue);
         const std::vector<Pair> unsure = first_entries(
             unsure_, std::min(words[UNSURE_COUNT], room()), queue, "the pairs left to the host");
         const auto found = std::ranges::find_if(unsure, [&](Pair pair) {
-            return triangles_meet(points, faces, pair, keeps_adjacent_);
+            return triangles_meet(here.points, here.faces, pair, keeps_adjacent_);
         });
         if (found != unsure.end()) {
             queue.cl().enqueueWriteBuffer(pairs.cl(), CL_TRUE, 0, sizeof(Pair), &*found);

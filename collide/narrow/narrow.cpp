@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "collide/device_lists.h"
+#include "collide/host_triangles.h"
 #include "collide/narrow/exact_adjacent.h"
 #include "collide/narrow/narrow_words.h"
 #include "collide/narrow/sharing.h"
@@ -221,8 +222,9 @@ void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
     std::vector<Pair> unsure = first_entries(
         unsure_, std::min<std::uint64_t>(counts[NARROW_EXACT_COUNT / 2], unsure_.size()), queue,
         "the candidates left to the host");
+    const HostTriangles here(input, queue);
     std::erase_if(unsure, [&](Pair pair) {
-        return !triangles_meet(input.points, input.faces, pair, options_.keep_adjacent);
+        return !triangles_meet(here.points, here.faces, pair, options_.keep_adjacent);
     });
 
     const std::size_t room = contacts_.size() - std::min<std::uint64_t>(found, contacts_.size());

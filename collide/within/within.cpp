@@ -10,6 +10,7 @@
 
 #include "collide/counters.h"
 #include "collide/device_lists.h"
+#include "collide/host_triangles.h"
 #include "collide/narrow/narrow.h"
 #include "collide/narrow/narrow_words.h"
 #include "collide/parameters.h"
@@ -214,19 +215,12 @@ void WithinPhase::decide_on_host(const Input& input, const DevicePairs& candidat
         return;
     const std::vector<Pair> left =
         first_entries(from.pairs, there, queue, "the candidates left to the host");
-    std::vector<Point> device_points;
-    std::vector<Face> device_faces;
-    if (input.points.empty()) {
-        device_points = input.device_points.download(queue.cl());
-        device_faces = input.device_faces.download(queue.cl());
-    }
-    const std::span<const Point> points = input.points.empty() ? device_points : input.points;
-    const std::span<const Face> faces = input.points.empty() ? device_faces : input.faces;
+    const HostTriangles here(input, queue);
     std::vector<char> is_within(left.size());  // no bits: threads write them
     on_all_cores((left.size() + taken_at_once - 1) / taken_at_once, [&](std::size_t part) {
         const std::size_t end = std::min(left.size(), (part + 1) * taken_at_once);
         for (std::size_t k = part * taken_at_once; k < end; ++k)
-            is_within[k] = are_within(points, faces, left[k], options_) ? 1 : 0;
+            is_within[k] = are_within(here.points, here.faces, left[k], options_) ? 1 : 0;
     });
     std::vector<Pair> more;
     for (std::size_t k = 0; k < left.size(); ++k)

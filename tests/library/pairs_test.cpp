@@ -173,7 +173,7 @@ TEST_F(LibraryPairs, HaveAFirstContactIfTrianglesIntersect)
     const std::vector<oibvh::Box> boxes = soup_mesh(9).boxes();
     tree.build(oibvh::HostBoxes{boxes});
     EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.first_contact(); }),
-              "boxes have overlaps but no contacts: the first contact is of triangles");
+              "boxes have overlaps but no contacts: those are of triangles");
 }
 
 TEST_F(LibraryPairs, FollowTrianglesThatMove)

@@ -142,6 +142,7 @@ public:
 
 private:
     friend class Tree;
+    friend class Scene;
     std::shared_ptr<Impl> impl_;
 };
 
@@ -283,6 +284,11 @@ public:
     /// BadInput if the tree is over boxes. The pairs of the last find_pairs can still be read.
     std::optional<Pair> first_contact(Among among = Among::all, const Filter& filter = {});
 
+    /// Finds all pairs of triangles that intersect: exactly, for the coordinates as floats, as docs/contacts.md says;
+    /// Options::adjacent_pairs as for first_contact. The host decides pairs that floats leave open, and reads points and faces for that,
+    /// if the device has no doubles. Waits. Throws as find_pairs, and BadInput if the tree is over boxes.
+    Pairs find_contacts(Among among = Among::all, const Filter& filter = {});
+
     /// Finds all pairs of triangles at most `distance` apart, in the unit of the points: exactly, for the coordinates as floats and the
     /// distance as a double, and 0 has those that touch or intersect. Options::adjacent_pairs tells whether triangles that share a
     /// point index, which are 0 apart, are among them. Each call builds a second tree, over boxes with half of the distance to all sides
@@ -307,6 +313,54 @@ public:
     struct Impl;
 
 private:
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Where an object of a scene is: the three rows of an affine map from the points that it was given to those of the scene, the
+/// last number of each a translation.
+struct Pose {
+    float x[4] = {1, 0, 0, 0};
+    float y[4] = {0, 1, 0, 0};
+    float z[4] = {0, 0, 1, 0};
+};
+
+/// A triangle of an object of a scene, by its number among those of the object.
+struct ObjectTriangle {
+    std::uint32_t object, triangle;
+};
+
+/// Objects over triangles, each with a tree of its own, that are placed one by one: what a pose or new points cost does not depend on
+/// the other objects. Points and faces are kept on the host and on the device. Calls wait for copies from the host alone.
+class BVHBENCH_API Scene {
+public:
+    /// Throws as Tree's constructor. Options::check_input is ignored: each object is checked when it is added or moved.
+    explicit Scene(Device device, Options options = {});
+    Scene(Scene&& other) noexcept;
+    Scene& operator=(Scene&& other) noexcept;
+    ~Scene();
+
+    /// Adds an object of 1 to 2^31 triangles, whose faces number its own points from 0, in the pose that moves nothing. Returns its
+    /// number, from 0. The next `tree` copies and builds all objects anew. Throws BadInput.
+    std::uint32_t add(const HostTriangles& object);
+
+    /// Puts an object into a pose, computed in floats from the points that it was given last. The next `tree` refits its tree. Throws
+    /// BadInput for an object that there is not, and for a pose that puts points where floats are not finite.
+    void place(std::uint32_t object, const Pose& pose);
+
+    /// Gives an object other points, as many as before; its pose stays. The next `tree` rebuilds its tree. Throws BadInput.
+    void move(std::uint32_t object, std::span<const Point> points);
+
+    /// Returns the tree of each object as they are now, for queries; its triangles are those of all objects, in the order of `add`. It
+    /// is valid until the next call that changes the scene. Throws BadInput for a scene without objects, and as Tree::build.
+    Tree& tree();
+
+    /// Returns the object of a triangle of `tree`. Throws BadInput if there is no such triangle.
+    ObjectTriangle origin(std::uint32_t triangle) const;
+
+    std::size_t memory() const;  ///< Returns the bytes of device memory that the scene holds.
+
+private:
+    struct Impl;
     std::unique_ptr<Impl> impl_;
 };
 
