@@ -1,6 +1,6 @@
 """Reads result files: tables, figures, pages and comparisons of them, and the commands that plan measurements.
 
-A module imports only its own floor and lower ones, which tests/sources_test.py checks. The reader for notebooks is bvhbench_results.py.
+A module imports only its own floor and lower ones, which tests/sources_test.py checks.
 """
 # Folders, the lowest first.
 FLOORS = (

@@ -30,7 +30,7 @@ from collections.abc import Iterator
 
 CHECK, ROOT, MORE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), "".join(sys.argv[3:4])
 LIBRARY = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "cluster", "library", "library_cluster")
-ALL = (*LIBRARY, "process", "scenes", "plugins", "harness", "benchmarks", "examples", "tests")
+ALL = (*LIBRARY, "python", "process", "scenes", "plugins", "harness", "benchmarks", "examples", "tests")
 SOURCES = (".h", ".cpp", ".cl", ".clh")
 CODE = (*SOURCES, ".c", ".cu", ".py", ".js", ".css", ".sh")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)

@@ -1,4 +1,4 @@
-"""Writes a row for each stage of each sample as CSV, with the columns of bvhbench_results.read."""
+"""Writes a row for each stage of each sample as CSV, with the columns of bvhbench.read."""
 import csv
 import io
 

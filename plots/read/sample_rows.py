@@ -1,4 +1,4 @@
-"""Result files as rows, one for each stage of each sample: what bvhbench_results.read and `export --format csv` give."""
+"""Result files as rows, one for each stage of each sample: what bvhbench.read and `export --format csv` give."""
 import os
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -12,13 +12,11 @@ if TYPE_CHECKING:
 Path = str | os.PathLike[str]
 CELL = ("file", "experiment", "scene", "triangles", "frame", "stand_in_for", "builder", "collider", "operation", "axis", "method",
         "seed", "features", "swept", "to_frame", "caches")
-SAMPLE = ("status", "verdict", "order", "drifted", "stage", "ns", "launches", "moved_bytes", "start_ns")
+SAMPLE = ("status", "verdict", "sample", "drifted", "stage", "ns", "launches", "moved_bytes", "start_ns")
 
 
 def read(paths: Path | Iterable[Path], counters: bool = False) -> "pandas.DataFrame":
-    """Returns one row for each stage of each sample of the result files, packed or not, wrong answers included. Columns
-    option_NAME hold the builder's options, collider_NAME the collider's; `counters` adds a column for each counter. A cell
-    without samples has one row without times. Raises json_files.Refused if a file is not a result file."""
+    """As bvhbench.read. Raises json_files.Refused if a file is not a result file."""
     import pandas
 
     files = [paths] if isinstance(paths, (str, os.PathLike)) else paths
@@ -43,7 +41,7 @@ def rows(run: results.Run, counters: bool) -> Iterator[dict[str, Any]]:
             for stage in sample["stages"]:
                 said = {key: stage[key] for key in SAMPLE if key in stage}
                 process = {"process": sample["process"]} if "process" in sample else {}
-                yield {**about, **process, "order": sample["order"], "drifted": sample.get("drifted", False), **said,
+                yield {**about, **process, "sample": sample["order"], "drifted": sample.get("drifted", False), **said,
                        "ns": elapsed_ns(stage)}
 
 

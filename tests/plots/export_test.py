@@ -12,9 +12,9 @@ import pandas
 
 from base import GOLDEN, ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds the source root to sys.path
 
-import bvhbench_results
 from plots.exporting import cell_names
-from plots.read import results
+from plots.files.json_files import Refused
+from plots.read import results, sample_rows
 from plots.read.cells import Cell
 
 SCHEMA = json.loads((ROOT / "tests" / "google_benchmark.schema.json").read_text(encoding="utf-8"))
@@ -122,7 +122,7 @@ class OfTables(Exports):
     def test_csv_is_the_table_of_the_reader(self) -> None:
         for path in WITH_CELLS:
             made = pandas.read_csv(io.StringIO(self.exported("csv", path)), float_precision="round_trip", low_memory=False)
-            wanted = bvhbench_results.read(path).replace("", float("nan"))
+            wanted = sample_rows.read(path).replace("", float("nan"))
             self.assertEqual(list(made), list(wanted))
             for column in made:
                 self.assertTrue(((made[column].astype(str) == wanted[column].astype(str)) | (made[column] == wanted[column])
@@ -180,19 +180,19 @@ class OfFiles(Exports):
 
 class OfRead(unittest.TestCase):
     def test_there_is_a_row_for_each_stage_of_each_sample(self) -> None:
-        frame = bvhbench_results.read(str(TABLE2))
+        frame = sample_rows.read(str(TABLE2))
         cells = results.everything(TABLE2).all_cells
         wanted = [(stage["stage"], stage.get("span_ns", stage.get("wall_ns"))) for cell in cells for sample in cell.all_samples
                   for stage in sample["stages"]]
         timed = frame[frame.stage.notna()]
         self.assertEqual(list(zip(timed.stage, timed.ns)), wanted)
-        self.assertEqual(tuple(frame.columns[:len(bvhbench_results.CELL)]), bvhbench_results.CELL)
+        self.assertEqual(tuple(frame.columns[:len(sample_rows.CELL)]), sample_rows.CELL)
         self.assertEqual(set(timed.collider_narrow), {dict(cell.collider_options)["narrow"] for cell in cells})
         self.assertEqual(set(timed.option_order), {dict(cell.options)["order"] for cell in cells if cell.all_samples})
         self.assertEqual(frame.file.unique().tolist(), [str(TABLE2)])
 
     def test_a_cell_without_samples_is_not_lost(self) -> None:
-        frame = bvhbench_results.read(TABLE1)
+        frame = sample_rows.read(TABLE1)
         skipped = [cell for cell in results.everything(TABLE1).all_cells if cell.status == "skipped"]
         self.assertEqual(len(skipped), 1)
         row, = frame[frame.status == "skipped"].to_dict("records")
@@ -202,13 +202,13 @@ class OfRead(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             packed = pathlib.Path(folder) / "packed.json.xz"
             packed.write_bytes(lzma.compress(TABLE1.read_bytes()))
-            frame = bvhbench_results.read([TABLE1, packed], counters=True)
-        self.assertNotIn("nodes_count", bvhbench_results.read(TABLE1))
+            frame = sample_rows.read([TABLE1, packed], counters=True)
+        self.assertNotIn("nodes_count", sample_rows.read(TABLE1))
         one, other = (frame[frame.file == str(path)].drop(columns="file").reset_index(drop=True) for path in (TABLE1, packed))
         self.assertTrue(one.equals(other))
         cell = results.everything(TABLE1).all_cells[0]
         self.assertEqual(one.nodes_count[0], cell.counters["nodes_count"])
 
     def test_what_is_no_result_file_is_refused(self) -> None:
-        with self.assertRaisesRegex(bvhbench_results.Refused, "is no result file"):
-            bvhbench_results.read(ROOT / "results" / "paper" / "table1.json")
+        with self.assertRaisesRegex(Refused, "is no result file"):
+            sample_rows.read(ROOT / "results" / "paper" / "table1.json")

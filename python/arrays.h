@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// NumPy's arrays as the library takes and gives them. The Python side makes them contiguous and of these types (arrays.py).
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <span>
+
+#include "python/open_device.h"
+
+namespace bvhbench::python {
+
+namespace py = pybind11;
+
+using Floats = py::array_t<float, py::array::c_style>;
+using Numbers = py::array_t<std::uint32_t, py::array::c_style>;
+
+/// Returns the values of an array, as many a row as `T` has, without a copy.
+template <class T, class Array>
+std::span<const T> values_of(const Array& array)
+{
+    static_assert(sizeof(T) % sizeof(typename Array::value_type) == 0);
+    return {reinterpret_cast<const T*>(array.data()),
+            static_cast<std::size_t>(array.nbytes()) / sizeof(T)};
+}
+
+/// Copies the pairs of a query from the device into a new array of a row each. Takes and holds the GIL but for the copy.
+Numbers array_of(const OpenDevice& on, const oibvh::Pairs& found);
+
+/// Runs `work` without the GIL, so that other threads of Python go on.
+template <class Work>
+auto without_gil(Work&& work)
+{
+    const py::gil_scoped_release released;
+    return work();
+}
+
+}  // namespace bvhbench::python
