@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Embree's collider, which builds its own trees: it is reserved once and then queried for frames whose points move.
-#include <thread>
 
 #include "tests/baselines/library_colliders.h"
 #include "tests/collide/many_objects.h"

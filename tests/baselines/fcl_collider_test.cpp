@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // FCL's colliders, which keep their own trees: each is reserved once and then queried for frames whose points move.
-#include <algorithm>
 #include <iterator>
-#include <random>
 
 #include "collide/narrow/exact_contact.h"
 #include "tests/baselines/library_colliders.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Assumptions about the wrapped libraries. tests/builders/contract_test.cpp tests what all builders guarantee.
-#include <gtest/gtest.h>
 
-#include "geometry/error.h"
 #include "tests/baselines/testing.h"
 #include "tests/needing.h"
 #include "tests/refusal.h"

@@ -2,7 +2,6 @@
 //
 // The rule `near` of libraries: objects far from all others get no tree, and are found as soon as they come near.
 #include "collide/skips.h"
-#include "harness/choice/catalog.h"
 #include "tests/baselines/library_colliders.h"
 #include "tests/collide/many_objects.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Libraries' colliders find as many pairs as a separate program counted, and are listed even if they were not built.
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

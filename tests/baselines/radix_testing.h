@@ -6,7 +6,6 @@
 #include <cmath>
 #include <span>
 
-#include "tests/all_cases.h"
 #include "tests/baselines/testing.h"
 
 namespace bvhbench {

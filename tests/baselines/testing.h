@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include "baselines/baselines.h"
-#include "builders/host_tree.h"
 #include "scenes/catalog.h"
 #include "tests/builders/stage_testing.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "builders/stages/bounds.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "tests/builders/stage_testing.h"

@@ -3,10 +3,7 @@
 // Box formats: rounding keeps the order and only enlarges boxes, for all inputs, and device and host round identically.
 #include "builders/box_format.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <limits>
 
 #include "builders/stages/bounds.h"
 #include "builders/stages/gather.h"

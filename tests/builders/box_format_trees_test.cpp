@@ -2,12 +2,9 @@
 //
 // Trees whose boxes are in another format meet the contract of a builder: each equals the reference tree with its boxes
 // rounded as the host rounds them, bit for bit.
-#include <gtest/gtest.h>
 
 #include "builders/host_tree.h"
-#include "geometry/error.h"
 #include "harness/judge/check.h"
-#include "harness/judge/hard_inputs.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

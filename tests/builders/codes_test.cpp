@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "builders/stages/codes.h"
 
-#include <gtest/gtest.h>
-
 #include "builders/orders.h"
 #include "builders/stages/bounds.h"
 #include "builders/stages/sort/waiting_sort.h"

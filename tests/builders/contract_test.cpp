@@ -4,7 +4,6 @@
 #include "harness/judge/check.h"
 
 #include "builders/orders.h"
-#include "harness/judge/check.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {

@@ -2,7 +2,6 @@
 //
 // Host threads give the same results as kernels, object by object, in trees of one subtree and of several.
 #include "builders/host_tree.h"
-#include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "builders/input.h"
 
-#include <gtest/gtest.h>
-
-#include <string>
 #include <vector>
 
-#include "geometry/error.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {

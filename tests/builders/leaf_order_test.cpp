@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "builders/ordered/leaf_order.h"
 
-#include <gtest/gtest.h>
-
 #include <map>
 
 #include "builders/stages/bounds.h"
-#include "tests/all_cases.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "builders/stages/medians/medians.h"
 
-#include <gtest/gtest.h>
-
 #include <ranges>
 
 #include "builders/stages/bounds.h"

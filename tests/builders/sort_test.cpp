@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "builders/stages/sort/sort.h"
 
-#include <gtest/gtest.h>
-
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
 
 #include "builders/stages/sort/waiting_sort.h"
 #include "tests/device/testing.h"

@@ -4,11 +4,8 @@
 // full rebuild, or the tree that the host makes from the previous one.
 #include <cstring>
 #include <optional>
-#include <random>
 
-#include "builders/device_tree.h"
 #include "builders/host_tree.h"
-#include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

@@ -3,9 +3,6 @@
 // Frames over ranks that are processes: the pairs of all ranks together are those of the oracle, each found once.
 #include "cluster/frame.h"
 
-#include <cstdlib>
-#include <numeric>
-
 #include "cluster/partition.h"
 #include "cluster/reach.h"
 #include "collide/narrow/narrow.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The kernels of this room, one rank at a time, against their definitions on the host.
-#include <algorithm>
 #include <cstring>
 #include <tuple>
 

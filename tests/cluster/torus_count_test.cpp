@@ -4,7 +4,6 @@
 // only a few rows and columns apart. With BVHBENCH_TESTS=all also those of the largest tori of docs/cluster.md, which takes minutes.
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 

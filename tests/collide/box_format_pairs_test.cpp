@@ -2,11 +2,8 @@
 //
 // Queries over trees with rounded boxes find exactly the pairs whose stored boxes overlap: no pair of exact boxes is missed, and
 // the number of false pairs is known beforehand.
-#include <numeric>
 
-#include "builders/device_tree.h"
 #include "scenes/generate/generators.h"
-#include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

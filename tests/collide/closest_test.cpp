@@ -8,7 +8,6 @@
 
 #include "collide/within/depth.h"
 #include "collide/within/distance_filter.h"
-#include "tests/all_cases.h"
 #include "tests/collide/narrow_testing.h"
 
 namespace bvhbench {

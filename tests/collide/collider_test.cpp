@@ -2,7 +2,6 @@
 //
 // Every collider of the catalog finds the oracle's pairs, on every device tree or without a tree. Colliders and builders are
 // tested as soon as they are in the catalogs.
-#include <span>
 
 #include "builders/implicit/tree.h"
 #include "tests/collide/many_objects.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Queries that leave out pairs of objects find what an oracle does that is asked the same.
-#include <random>
 
 #include "collide/object_filter.h"
 #include "geometry/hash.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Several objects in a frame: a build makes a tree of each, and every collider finds the oracle's pairs between or within them.
-#include "builders/device_tree.h"
 #include "builders/host_tree.h"
-#include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "collide/pairs.h"
 #include "tests/collide/collider_testing.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Compares the narrow phase with CGAL, pair for pair, on pairs that are hard to decide.
-#include <algorithm>
-#include <array>
 #include <map>
 
 #include "geometry/error.h"

@@ -3,8 +3,6 @@
 // Shared by the tests of the narrow phase: candidates on the device, as a broad phase would leave them.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <iterator>
 #include <utility>

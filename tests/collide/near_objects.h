@@ -4,7 +4,6 @@
 #pragma once
 
 #include "collide/near.h"
-#include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Random sequences of frames have the same pairs and contacts with all rules of skips.h, with each alone, and with none.
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <random>
 
 #include "harness/measure/pipeline.h"
-#include "tests/all_cases.h"
-#include "tests/collide/many_objects.h"
 #include "tests/collide/near_objects.h"
 #include "tests/needing.h"
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Swept boxes contain every frame in between; every builder makes the same ones, and every collider finds the oracle's pairs.
-#include <cstdlib>
-#include <random>
 
-#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
 #include "harness/measure/collide.h"
 #include "harness/measure/pipeline.h"

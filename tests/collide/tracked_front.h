@@ -3,9 +3,6 @@
 // Objects that move, and a front that is carried over their frames.
 #pragma once
 
-#include <cmath>
-#include <map>
-
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

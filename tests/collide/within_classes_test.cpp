@@ -6,7 +6,6 @@
 #include "collide/within/closest.h"
 #include "collide/within/within.h"
 #include "geometry/cores.h"
-#include "tests/all_cases.h"
 #include "tests/collide/narrow_testing.h"
 
 namespace bvhbench {

@@ -3,7 +3,6 @@
 // No fused multiply-adds: products are rounded before they are added, on the host and on the device. A fused multiply-add
 // rounds once and would give other boxes, codes and signs. The functions of the headers that predicates and costs use are
 // compared with sums of products that were each stored first.
-#include <gtest/gtest.h>
 
 #include <cstring>
 #include <random>
@@ -105,7 +104,6 @@ TEST(Contraction, IsOffOnTheHost)
 }
 
 constexpr auto kernel_text = R"(
-#include "geometry/orient.h"
 
 kernel void surfaces(global const float* restrict in, global float* restrict out)
 {

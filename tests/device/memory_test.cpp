@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <numeric>
-#include <stdexcept>
 
 #include "device/arena.h"
 #include "tests/device/testing.h"

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <initializer_list>
-#include <string>
 
 #include "device/program.h"
 #include "device/queue.h"
-#include "geometry/error.h"
 #include "tests/folder.h"
 #include "tests/refusal.h"
 

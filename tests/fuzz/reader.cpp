@@ -3,7 +3,6 @@
 // A libFuzzer target for each reader of this project, selected by a define. For any bytes, the reader must succeed or throw an
 // error that main() prints as one sentence. Any other exception and any sanitizer report is a finding.
 #include <fstream>
-#include <functional>
 
 #include "builders/host_tree.h"
 #include "geometry/error.h"

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/host_memory.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
-#include <string>
 
-#include "geometry/error.h"
 #include "tests/folder.h"
 #include "tests/refusal.h"
 

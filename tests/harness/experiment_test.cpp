@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/experiment.h"
 
-#include <gtest/gtest.h>
-
 #include "collide/skips.h"
-#include "geometry/error.h"
 #include "tests/harness/fakes.h"
 
 namespace bvhbench {

@@ -3,7 +3,6 @@
 // Invented results with numbers that are easy to recognise.
 #pragma once
 
-#include "geometry/error.h"
 #include "harness/base/json_keys.h"
 #include "harness/record/record.h"
 #include "tests/refusal.h"

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests the options `update` and `trees`: what is done to the trees of each frame, and that the pairs are the oracle's.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <random>
-
-#include "collide/oracles/box_pairs.h"
 #include "harness/measure/frames.h"
 #include "harness/measure/pipeline.h"
 #include "tests/collide/collider_testing.h"

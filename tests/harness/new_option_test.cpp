@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests the option that docs/adding.md adds, compiled with the files and changes of that page.
-#include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
 
-#include "geometry/error.h"
 #include "harness/choice/choices.h"
 #include "tests/refusal.h"
 

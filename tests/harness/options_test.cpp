@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include <set>
 #include <sstream>
 
-#include "geometry/error.h"
 #include "geometry/names.h"
 #include "harness/base/build_info.h"
 #include "harness/choice/choices.h"

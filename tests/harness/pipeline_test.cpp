@@ -3,9 +3,6 @@
 // Tests which work a frame's pipeline leaves out, and that it still finds the same pairs.
 #include "harness/measure/pipeline.h"
 
-#include <gtest/gtest.h>
-
-#include "collide/oracles/box_pairs.h"
 #include "collide/skips.h"
 #include "harness/measure/device_verdict.h"
 #include "harness/measure/frames.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "harness/record/record.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <limits>
 
-#include "harness/base/json_keys.h"
 #include "harness/record/provenance.h"
 #include "harness/session/tuning_file.h"
 #include "tests/harness/fakes.h"

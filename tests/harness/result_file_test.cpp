@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/record/result_file.h"
 
-#include <gtest/gtest.h>
-
-#include <fstream>
 #include <iterator>
 
-#include "geometry/error.h"
-#include "harness/base/json_keys.h"
 #include "tests/folder.h"
 #include "tests/harness/fakes.h"
 

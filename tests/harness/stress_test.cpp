@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "builders/host_tree.h"
 #include "collide/oracles/box_pairs.h"

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/tuning_file.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
 #include "builders/parameters.h"
 #include "builders/stages/sort/sort.h"
-#include "geometry/error.h"
 #include "tests/folder.h"
 #include "tests/refusal.h"
 

@@ -3,7 +3,6 @@
 // Makes OpenCL calls of the last rank fail, one at a time. Each failure must give all ranks the same Error, none may wait for
 // another, and the same tree must work again once no call fails.
 #include <optional>
-#include <set>
 
 #include "tests/faults/opencl_shim.h"
 #include "tests/library_cluster/rank_scene.h"

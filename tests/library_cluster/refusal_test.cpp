@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // What one rank passes wrongly, or lacks memory for, all ranks refuse with the same sentence, and none waits for another.
-#include <cmath>
 
 #include "tests/library_cluster/rank_scene.h"
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // The kernels equal the reference bit for bit, for any size, form of kernels and location of the leaves.
-#include <gtest/gtest.h>
 
 #include "baselines/baselines.h"
-#include "builders/host_tree.h"
 #include "builders/parameters.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
-#include "tests/all_cases.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {

@@ -9,7 +9,6 @@
 #include <functional>
 #include <numeric>
 #include <set>
-#include <vector>
 
 #include "oibvh/kary_layout.h"
 #include "oibvh/layout.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Wide trees: the arithmetic is that of Appendix C, and the kernels' result equals the literal construction bit for bit.
-#include <gtest/gtest.h>
 
-#include "builders/host_tree.h"
 #include "geometry/error.h"
 #include "oibvh/kary_layout.h"
 #include "oibvh/oibvh.h"

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "plugins/protocol.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cstring>
 #include <limits>
 #include <random>
 
 #include "builders/host_tree.h"
-#include "geometry/error.h"
 #include "tests/refusal.h"
 
 namespace bvhbench::outside {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <set>
 
 #include "helpers.h"
 #include "scenes/generate/generators.h"

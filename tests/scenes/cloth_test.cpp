@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/generate/cloth.h"
 
-#include <set>
-
 #include "helpers.h"
 #include "scenes/generate/film.h"
 #include "scenes/generate/generators.h"

@@ -2,9 +2,7 @@
 //
 // Scenes derived from another scene: refine, outlier, bend.
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <set>
 
 #include "helpers.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <set>
 
 #include "helpers.h"
 #include "kinds.h"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "geometry/hash.h"
 #include "helpers.h"

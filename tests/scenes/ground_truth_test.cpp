@@ -3,7 +3,6 @@
 
 #include "helpers.h"
 #include "scenes/generate/derived.h"
-#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {

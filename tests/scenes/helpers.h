@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <set>
-#include <string>
 
-#include "geometry/error.h"
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
 #include "tests/folder.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "kinds.h"
 
-#include <algorithm>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>

@@ -11,7 +11,6 @@
 #include <map>
 
 #include "helpers.h"
-#include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {

@@ -2,7 +2,6 @@
 #include "scenes/motion.h"
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 
 #include "helpers.h"

@@ -3,7 +3,6 @@
 // Files of queries are read whole, with coordinates that are doubles exactly, or refused with the line.
 #include "scenes/moving_queries.h"
 
-#include "tests/refusal.h"
 #include "tests/scenes/helpers.h"
 
 namespace bvhbench {

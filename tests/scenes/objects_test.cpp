@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/face_order.h"
 
-#include <set>
-
 #include "helpers.h"
 
 namespace bvhbench {

@@ -3,7 +3,6 @@
 // Parts of binary PLY files and of frames are those of the whole; what cannot be read in parts is read whole.
 #include "helpers.h"
 #include "kinds.h"
-#include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
