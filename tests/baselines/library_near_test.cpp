@@ -75,8 +75,7 @@ TEST_P(LibraryNear, MakesEveryTreeForPairsWithinObjects)
 }
 
 INSTANTIATE_TEST_SUITE_P(Libraries, LibraryNear,
-                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"),
-                         [](const auto& tested) { return test_name(tested.param); });
+                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -56,8 +56,7 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
 }
 
 INSTANTIATE_TEST_SUITE_P(Libraries, LibraryReference,
-                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"),
-                         [](const auto& tested) { return test_name(tested.param); });
+                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"), CaseName());
 
 TEST(LibraryColliders, AreListedAndRefusedWhereTheyWereNotBuilt)
 {

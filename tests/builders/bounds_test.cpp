@@ -77,7 +77,7 @@ TEST_P(BoundsContract, EqualTheHostsOnTheWayBetweenTwoFrames)
     expect_equal_to_host(mesh, 64, {{0, 1}, {1, 600}, {601, 399}}, end);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, BoundsContract, testing::ValuesIn(both_forms), form_test_name);
+INSTANTIATE_TEST_SUITE_P(Forms, BoundsContract, testing::ValuesIn(both_forms), CaseName());
 
 TEST(BoxCentre, NeitherOverflowsNorHasANegativeZero)
 {

@@ -150,7 +150,7 @@ TEST_P(EachFormat, IsTheSameOnTheDevice)
     for (const KernelForm form : both_forms) {
         GatherStage gather(bench().programs, form, 16, GetParam());
         for (const auto& [name, mesh] : hard_meshes(333)) {
-            SCOPED_TRACE(name + ", " + form_name(form));
+            SCOPED_TRACE(name + ", " + name_of(form));
             const std::vector<Aabb> boxes = face_boxes(mesh.points, mesh.faces);
             const Bounds bounds = host_bounds(boxes);
             const std::vector<uint> ids = shuffled_ids(boxes.size());
@@ -177,8 +177,7 @@ TEST_P(EachFormat, IsTheSameOnTheDevice)
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, EachFormat,
-                         testing::ValuesIn(box_formats().begin(), box_formats().end()),
-                         [](const auto& tested) { return std::string(tested.param.name); });
+                         testing::ValuesIn(box_formats().begin(), box_formats().end()), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

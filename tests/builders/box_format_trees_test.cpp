@@ -102,7 +102,7 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
 
 INSTANTIATE_TEST_SUITE_P(Catalog, RoundedTrees,
                          testing::ValuesIn(box_formats().begin() + 1, box_formats().end()),
-                         [](const auto& tested) { return std::string(tested.param.name); });
+                         CaseName());
 
 TEST(RoundedTrees, AreBuiltByAllThatSayThatTheyCan)
 {

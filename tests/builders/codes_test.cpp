@@ -86,11 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Orders, CodesContract, testing::ValuesIn([] {
                                      orders.push_back(order);
                              return orders;
                          }()),
-                         [](const auto& instance) {
-                             std::string name(instance.param.name);
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+                         CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -49,10 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
     Catalog, BuilderContract,
     testing::Combine(testing::ValuesIn(builder_catalog().begin(), builder_catalog().end()),
                      testing::ValuesIn(hard_inputs().begin(), hard_inputs().end())),
-    [](const auto& tested) {
-        return test_name(std::string(std::get<0>(tested.param).name) + '_' +
-                         std::string(std::get<1>(tested.param).name));
-    });
+    CaseName());
 
 class EachBuilder : public testing::TestWithParam<BuilderEntry> {
 protected:
@@ -124,9 +121,7 @@ TEST_P(EachBuilder, RefusesAGroupSizeThatIsNoPowerOfTwo)
 
 INSTANTIATE_TEST_SUITE_P(Catalog, EachBuilder,
                          testing::ValuesIn(builder_catalog().begin(), builder_catalog().end()),
-                         [](const auto& tested) {
-                             return test_name(std::string(tested.param.name));
-                         });
+                         CaseName());
 
 TEST(ImplicitBuilders, LineUpLeavesInTheirFirstLaunchUnlessTheyRoundThem)
 {

@@ -90,7 +90,7 @@ TEST_P(GatherContract, FillsThePlacesOfChosenObjectsAndNoOthers)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, GatherContract, testing::ValuesIn(both_forms), form_test_name);
+INSTANTIATE_TEST_SUITE_P(Forms, GatherContract, testing::ValuesIn(both_forms), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

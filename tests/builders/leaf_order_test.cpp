@@ -15,6 +15,12 @@ struct Case {
     uint at_once = 0;  ///< sort.at_once, on devices whose groups do not wait
 };
 
+std::string name_of(const Case& tested)
+{
+    const std::string name = test_name(tested.order) + "_" + bvhbench::name_of(tested.form);
+    return tested.at_once > 0 ? name + "_at_once_" + std::to_string(tested.at_once) : name;
+}
+
 /// Returns programs of the same device with sort.at_once as given, so that groups wait on a CPU too.
 Programs& programs_at_once(uint at_once)
 {
@@ -117,15 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
             cases.push_back({KernelForm::groups, order, sort_at_once_with_boxes});
         return cases;
     }()),
-    [](const auto& instance) {
-        // GoogleTest accepts only letters, digits and _.
-        std::string name = instance.param.order + "_" + form_name(instance.param.form);
-        if (instance.param.at_once > 0)
-            name += "_at_once_" + std::to_string(instance.param.at_once);
-        std::ranges::replace_if(
-            name, [](char c) { return c == '-' || c == '+'; }, '_');
-        return name;
-    });
+    CaseName());
 
 /// Each object's leaves use a grid of that object, or all use the scene's; with many objects the lowest code bits are dropped.
 TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
@@ -150,7 +148,7 @@ TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
             for (const KernelForm form : both_forms) {
                 if (drops_bits && form == KernelForm::groups)
                     continue;  // takes seconds on a CPU, with the same kernel arguments
-                SCOPED_TRACE(form_name(form));
+                SCOPED_TRACE(name_of(form));
                 // By groups, and enough triangles for digits to be counted with the codes.
                 Programs& programs = programs_at_once(form == KernelForm::groups ? 1 : 0);
                 LeafOrder order(programs, entry.name, form, grid);

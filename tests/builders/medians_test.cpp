@@ -131,8 +131,7 @@ TEST_P(MediansContract, EqualTheHostsOfClusters)
     })));
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, MediansContract, testing::ValuesIn(cases),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Shapes, MediansContract, testing::ValuesIn(cases), CaseName());
 
 float centre_along(const Aabb& box, uint axis) { return coordinate(box_centre(box), axis); }
 

@@ -28,7 +28,7 @@ TEST_P(Scan, SumsUpAllThatComesBefore)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, Scan, testing::ValuesIn(both_forms), form_test_name);
+INSTANTIATE_TEST_SUITE_P(Forms, Scan, testing::ValuesIn(both_forms), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -23,6 +23,7 @@
 #include "device/queue.h"
 #include "geometry/mesh.h"
 #include "tests/all_cases.h"
+#include "tests/case_name.h"
 
 namespace bvhbench {
 
@@ -110,16 +111,6 @@ inline void expect_one_tree(Builder& builder, const Mesh& mesh)
 
 /// Both forms of kernels, for tests that run both on any device.
 constexpr KernelForm both_forms[] = {KernelForm::groups, KernelForm::chunks};
-
-inline std::string form_name(KernelForm form)
-{
-    return form == KernelForm::groups ? "groups" : "chunks";
-}
-
-inline std::string form_test_name(const testing::TestParamInfo<KernelForm>& tested)
-{
-    return form_name(tested.param);
-}
 
 struct NamedMesh {
     std::string name;

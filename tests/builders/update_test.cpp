@@ -196,13 +196,11 @@ TEST_P(Updating, HasOnlyTheStagesThatSomeObjectNeeds)
     EXPECT_EQ(stages_of({keep, keep, refit}), refits);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Implicit, Updating,
-    testing::Combine(testing::Values("oibvh-multi", "oibvh-single", "perfect", "oibvh-wide8"),
-                     testing::ValuesIn(all_cases())),
-    [](const auto& tested) {
-        return test_name(std::get<0>(tested.param) + "_" + std::get<1>(tested.param).name);
-    });
+INSTANTIATE_TEST_SUITE_P(Implicit, Updating,
+                         testing::Combine(testing::Values("oibvh-multi", "oibvh-single", "perfect",
+                                                          "oibvh-wide8"),
+                                          testing::ValuesIn(all_cases())),
+                         CaseName());
 
 TEST(Updates, OfBuildersThatTreatAllObjectsAlikeRebuildOrRefitAll)
 {

@@ -130,7 +130,7 @@ TEST_P(Halves, PairsWithTheHaloAreThoseOfTheDefinition)
 
 INSTANTIATE_TEST_SUITE_P(Trees, Halves,
                          testing::Values("oibvh-multi", "karras", "perfect", "oibvh-wide4"),
-                         [](const auto& instance) { return test_name(instance.param); });
+                         CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -95,7 +95,7 @@ TEST_P(ClosestTest, AreThoseOfTrianglesOfSeveralPairs)
         expect_closest(mesh, {k, k + 3});
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ClosestTest, all_classes, ClassName());
+INSTANTIATE_TEST_SUITE_P(Of, ClosestTest, all_classes, CaseName());
 
 TEST(Depth, IsTheShortestMoveAfterWhichTrianglesDoNotMeet)
 {

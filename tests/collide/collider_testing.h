@@ -25,6 +25,7 @@
 #include "harness/session/session.h"
 #include "scenes/catalog.h"
 #include "tests/all_cases.h"
+#include "tests/case_name.h"
 
 namespace bvhbench {
 
@@ -165,41 +166,6 @@ inline std::vector<ColliderEntry> box_colliders(bool of_trees)
     }
     return colliders;
 }
-
-/// Replaces `-` by `_`, since GoogleTest allows only letters, digits and _ in names.
-inline std::string test_name(std::string name)
-{
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
-
-inline std::string name_of(bool is_so) { return is_so ? "yes" : "no"; }
-inline std::string name_of(KernelForm form)
-{
-    return form == KernelForm::groups ? "groups" : "chunks";
-}
-template <class Entry>
-std::string name_of(const Entry& entry)
-{
-    return test_name(std::string(entry.name));
-}
-
-/// Names a case of a parameterized test by its parameters, in order.
-struct CaseName {
-    template <class... Parts>
-    std::string operator()(const testing::TestParamInfo<std::tuple<Parts...>>& tested) const
-    {
-        std::string name;
-        std::apply([&](const Parts&... parts) { ((name += name_of(parts) + '_'), ...); },
-                   tested.param);
-        return name.substr(0, name.size() - 1);
-    }
-    template <class Part>
-    std::string operator()(const testing::TestParamInfo<Part>& tested) const
-    {
-        return name_of(tested.param);
-    }
-};
 
 inline const auto both_forms = testing::Values(KernelForm::groups, KernelForm::chunks);
 

@@ -31,10 +31,13 @@ HostTree tree_of(const Standing& standing, const ManyObjects& many, uint object)
     return tree;
 }
 
-class Objects : public testing::TestWithParam<std::tuple<BuilderEntry, bool>> {
+class Objects : public testing::TestWithParam<std::tuple<BuilderEntry, Leaves>> {
 protected:
     const BuilderEntry& builder() const { return std::get<0>(GetParam()); }
-    BuildOptions options() const { return {.sorted_leaves = std::get<1>(GetParam())}; }
+    BuildOptions options() const
+    {
+        return {.sorted_leaves = std::get<1>(GetParam()) == Leaves::sorted};
+    }
 };
 
 TEST_P(Objects, HaveEachATreeOverTheirOwnTriangles)
@@ -102,11 +105,9 @@ TEST_P(Objects, AreHeldAgainstEachOtherByEveryCollider)
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, Objects,
-                         testing::Combine(testing::ValuesIn(device_builders()), testing::Bool()),
-                         [](const auto& tested) {
-                             return name_of(std::get<0>(tested.param)) +
-                                    (std::get<1>(tested.param) ? "_sorted" : "_mesh");
-                         });
+                         testing::Combine(testing::ValuesIn(device_builders()),
+                                          testing::Values(Leaves::as_in_mesh, Leaves::sorted)),
+                         CaseName());
 
 /// Two objects move through each other: a query launches as many steps as the previous one needed, and all if those are too few.
 TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)

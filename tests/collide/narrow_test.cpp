@@ -124,7 +124,7 @@ TEST_P(Narrow, MissesNoneWithFiltersAloneAndIsFalseOnlyWhereTheyAreInDoubt)
 INSTANTIATE_TEST_SUITE_P(Forms, Narrow,
                          testing::Combine(testing::ValuesIn(both_forms), testing::Bool()),
                          [](const auto& tested) {
-                             return form_name(std::get<0>(tested.param)) +
+                             return name_of(std::get<0>(tested.param)) +
                                     (std::get<1>(tested.param) ? "_without_doubles" : "");
                          });
 
@@ -153,7 +153,7 @@ TEST_F(RoundingErrors, AreNoneWhereNothingIsClose)
         for (const NarrowMethod& method : narrow_methods(NarrowOf::moment)) {
             if (method.is_filter() && !method.is_exact)
                 continue;  // false where in doubt
-            SCOPED_TRACE(std::string(method.name) + ", " + form_name(form));
+            SCOPED_TRACE(std::string(method.name) + ", " + name_of(form));
             EXPECT_EQ(errors_of(method.name, form, "generic"), none);
             if (method.name != "sat-f32") {  // no axis between a segment and others in its plane
                 EXPECT_EQ(errors_of(method.name, form, "coplanar_lattice"), none);

@@ -44,15 +44,7 @@ struct Candidates {
 /// Tests of one class of pairs each.
 class OfAClass : public Needing<testing::TestWithParam<PairClass>, cgal_absent> {};
 
-struct ClassName {
-    std::string operator()(const testing::TestParamInfo<PairClass>& of) const
-    {
-        std::string name = of.param.name;
-        std::ranges::replace_if(
-            name, [](char letter) { return letter == '^' || letter == '-'; }, '_');
-        return name;
-    }
-};
+using ClassName = CaseName;
 
 inline const auto all_classes = testing::ValuesIn(pair_classes().begin(), pair_classes().end());
 

@@ -180,7 +180,7 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
 }
 
 INSTANTIATE_TEST_SUITE_P(Builders, SweptPairs, testing::Values("oibvh-single", "karras"),
-                         [](const auto& instance) { return test_name(instance.param); });
+                         CaseName());
 
 TEST(SweptBoxes, OfAllBuildersAreThoseOfTheReferenceOrAreRefused)
 {

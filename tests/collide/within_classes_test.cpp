@@ -117,7 +117,7 @@ TEST_P(WithinClasses, AreToldAtTheirOwnDistance)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, WithinClasses, all_classes, ClassName());
+INSTANTIATE_TEST_SUITE_P(Of, WithinClasses, all_classes, CaseName());
 
 }  // namespace
 }  // namespace bvhbench

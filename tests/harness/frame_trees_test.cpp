@@ -158,7 +158,7 @@ TEST_P(OneTreeOverTheScene, FindsThePairsOfItsObjects)
 
 INSTANTIATE_TEST_SUITE_P(Colliders, OneTreeOverTheScene,
                          testing::Values("leaf", "bvtt", "group", "block", "front", "front-leaf"),
-                         [](const auto& collider) { return test_name(collider.param); });
+                         CaseName());
 
 TEST(OneTree, GivesTheNarrowPhaseTheTrueFaces)
 {

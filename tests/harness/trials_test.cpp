@@ -8,6 +8,7 @@
 #include "builders/parameters.h"
 #include "collide/parameters.h"
 #include "harness/base/failure.h"
+#include "tests/case_name.h"
 
 namespace bvhbench {
 namespace {
@@ -21,6 +22,11 @@ struct Tunable {
     const char* scene = "torus:1500";
     bool only_in_groups = false;  ///< whether all its parameters are of the form for many lanes
 };
+
+std::string name_of(const Tunable& tested)
+{
+    return test_name(std::string(tested.target) + '_' + tested.builder + '_' + tested.order);
+}
 
 class Trials : public testing::TestWithParam<Tunable> {
 protected:
@@ -77,12 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Tunable{.target = "front-leaf", .scene = "cloth-ball:1500:3", .only_in_groups = true},
         Tunable{.target = "leaf", .narrow = "exact", .scene = "cloth-ball:1500:3"},
         Tunable{.target = "grid", .builder = "none", .only_in_groups = true}),
-    [](const auto& tested) {
-        std::string name = tested.param.target + std::string("_") + tested.param.builder + "_" +
-                           tested.param.order;
-        std::replace(name.begin(), name.end(), '-', '_');
-        return name;
-    });
+    CaseName());
 
 TEST(TuneTarget, MovesAFrontToTheSecondFrame)
 {

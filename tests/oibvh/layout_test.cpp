@@ -175,8 +175,7 @@ TEST_P(LayoutOf, HoldsUpToTheMostLeavesThatFit)
     EXPECT_GT(nodes * arity + 1, 0xffffffffu);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layouts, LayoutOf, testing::ValuesIn(layouts()),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Layouts, LayoutOf, testing::ValuesIn(layouts()), CaseName());
 
 class OiLayoutAt : public testing::TestWithParam<uint> {};
 

@@ -145,8 +145,7 @@ TEST_P(Wide, TakesLessThanTheBinaryTree)
     EXPECT_NEAR(bytes, GetParam().bits == 2 ? 36 : 4 + 192 / 7.0, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, Wide, testing::ValuesIn(ways),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Ways, Wide, testing::ValuesIn(ways), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -108,7 +108,7 @@ TEST_F(Files, PassOverLinesAndPoints)
 }
 
 struct Bad {
-    const char* file;
+    const char* name;
     std::string bytes;
     const char* message;
 };
@@ -118,9 +118,9 @@ class BadFile : public testing::TestWithParam<Bad> {};
 TEST_P(BadFile, IsRefusedInOneSentenceThatSaysWhat)
 {
     const Folder folder;
-    const std::string message = refusal(folder.file(GetParam().file, GetParam().bytes));
+    const std::string message = refusal(folder.file(GetParam().name, GetParam().bytes));
     EXPECT_TRUE(contains(message, "Unavailable: "));
-    EXPECT_TRUE(contains(message, GetParam().file));
+    EXPECT_TRUE(contains(message, GetParam().name));
     EXPECT_TRUE(contains(message, GetParam().message));
     EXPECT_EQ(message.find('\n'), message.npos);
 }
@@ -248,11 +248,7 @@ const Bad bad_files[] = {
     {"notes.txt", "hello", "of a format that is not read, '.txt'"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Each, BadFile, testing::ValuesIn(bad_files), [](const auto& bad) {
-    std::string name = bad.param.file;
-    std::replace(name.begin(), name.end(), '.', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Each, BadFile, testing::ValuesIn(bad_files), CaseName());
 
 TEST_F(Files, ThatAreNotThereAreNamed)
 {

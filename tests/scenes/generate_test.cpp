@@ -58,8 +58,9 @@ Aabb box_of(const std::vector<Point>& points)
 
 class EachGenerator : public testing::TestWithParam<Generator> {};
 class EachMovingGenerator : public EachGenerator {};
-INSTANTIATE_TEST_SUITE_P(Scenes, EachGenerator, testing::ValuesIn(all_that(true)), name_of);
-INSTANTIATE_TEST_SUITE_P(Scenes, EachMovingGenerator, testing::ValuesIn(all_that(false)), name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, EachGenerator, testing::ValuesIn(all_that(true)), CaseName());
+INSTANTIATE_TEST_SUITE_P(Scenes, EachMovingGenerator, testing::ValuesIn(all_that(false)),
+                         CaseName());
 
 TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
 {

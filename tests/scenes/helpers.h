@@ -7,6 +7,7 @@
 
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
+#include "tests/case_name.h"
 #include "tests/folder.h"
 #include "tests/refusal.h"
 

@@ -126,11 +126,7 @@ TEST_P(EveryKind, IsReadWhole)
     EXPECT_EQ(compared > 0, kind.assimp_reads);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, EveryKind, testing::ValuesIn(kinds()), [](const auto& kind) {
-    std::string name = kind.param.name;
-    std::ranges::replace(name, '.', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Each, EveryKind, testing::ValuesIn(kinds()), CaseName());
 
 /// Returns a glTF file of tetrahedra at the places of its nodes, whose mesh names 4 of `vertices` vertices, once for each of `primitives`.
 std::string tetrahedra(const std::string& nodes, unsigned vertices = 4, unsigned primitives = 1)
