@@ -37,4 +37,11 @@ private:
     std::filesystem::path path_;
 };
 
+/// Returns this machine's data folder, which BVHBENCH_DATA names; empty if there is none.
+inline std::filesystem::path data_folder()
+{
+    const char* const folder = std::getenv("BVHBENCH_DATA");
+    return folder != nullptr ? folder : "";
+}
+
 }  // namespace bvhbench

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "helpers.h"
+#include "scenes/facts.h"
 
 namespace bvhbench {
 namespace {
@@ -23,30 +24,10 @@ double area(const Scene& scene, const SceneObject& object, std::size_t frame = 0
     return sum;
 }
 
-double longest_edge(const Scene& scene)
-{
-    double longest = 0;
-    for (const Face& face : scene.faces)
-        for (const auto& [a, b] :
-             {std::pair{face.a, face.b}, std::pair{face.b, face.c}, std::pair{face.c, face.a}}) {
-            const Point p = scene.frames[0][a], q = scene.frames[0][b];
-            longest = std::max<double>(longest, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
-        }
-    return longest;
-}
-
 /// Returns the number of triangle sides without a triangle on the other side.
-std::size_t open_sides(const Scene& scene)
+std::size_t open_sides(const std::string& name)
 {
-    std::map<std::pair<uint, uint>, int> count;
-    for (const Face& face : scene.faces)
-        for (const auto& [a, b] :
-             {std::pair{face.a, face.b}, std::pair{face.b, face.c}, std::pair{face.c, face.a}})
-            ++count[std::minmax(a, b)];
-    std::size_t open = 0;
-    for (const auto& [side, uses] : count)
-        open += uses == 1;
-    return open;
+    return mesh_facts(load_scene(name, {}), 1).open_edges;
 }
 
 using Refine = InFolder;
@@ -64,15 +45,17 @@ TEST_F(Refine, GivesExactlyTheTrianglesAskedFor)
 
 TEST_F(Refine, CutsLongestEdgesFirst)
 {
-    const double before = longest_edge(load_scene("soup:100", {}));
-    EXPECT_LT(longest_edge(load_scene("refine:soup:100:3000", {})), before / 3);
+    const auto longest = [](const char* name) {
+        return mesh_facts(load_scene(name, {}), 1).longest_edge;
+    };
+    EXPECT_LT(longest("refine:soup:100:3000"), longest("soup:100") / 3);
 }
 
 TEST_F(Refine, LeavesAClosedSurfaceClosedOrOneVertexOnASide)
 {
     for (const uint count : {102u, 1000u, 5000u})
-        EXPECT_EQ(open_sides(load_scene("refine:sphere:100:" + std::to_string(count), {})), 0u);
-    EXPECT_EQ(open_sides(load_scene("refine:sphere:100:1001", {})), 3u);  // a long side, two halves
+        EXPECT_EQ(open_sides("refine:sphere:100:" + std::to_string(count)), 0u);
+    EXPECT_EQ(open_sides("refine:sphere:100:1001"), 3u);  // a long side, two halves
 }
 
 TEST_F(Refine, CutsTrianglesOfTheSameCornersAlike)
@@ -82,10 +65,9 @@ TEST_F(Refine, CutsTrianglesOfTheSameCornersAlike)
         folder.file("twice.obj",
                     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"
                     "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
-    const Scene fine = load_scene("refine:" + twice + ":1000", {});
-    EXPECT_EQ(open_sides(fine), 0u);
+    EXPECT_EQ(open_sides("refine:" + twice + ":1000"), 0u);
     std::map<std::set<uint>, int> uses;
-    for (const Face& face : fine.faces)
+    for (const Face& face : load_scene("refine:" + twice + ":1000", {}).faces)
         ++uses[{face.a, face.b, face.c}];
     for (const auto& [corners, count] : uses)
         ASSERT_EQ(count, 2);
@@ -137,9 +119,7 @@ TEST(Outlier, MovesOneTriangleAlongItsNormalAndNothingElse)
 {
     const Scene before = load_scene("grid:50", {});
     const Scene after = load_scene("outlier:grid:50:7:2.5", {});
-    Aabb box = empty_box();
-    for (const Face& face : before.faces)
-        box = merged(box, face_box(before.frames[0], face));
+    const Aabb box = box_around(before.frames[0], before.faces);
     const double diagonal = std::hypot(box.max_x - box.min_x, box.max_y - box.min_y);
     ASSERT_EQ(after.triangle_count(), 50u);
     for (uint k = 0; k < 50; ++k) {
@@ -189,9 +169,7 @@ TEST(Bend, AddsAFrameInWhichEveryPointIsWhereTheFormulaSays)
         const Scene before = load_scene(name, {});
         const Scene after = load_scene("bend:" + name, {});
         ASSERT_EQ(after.frames.size(), 2u);
-        Aabb box = empty_box();
-        for (const Point& point : before.frames[0])
-            box = merged(box, {point.x, point.y, point.z, point.x, point.y, point.z});
+        const Aabb box = box_around(before.frames[0], before.faces);
         const double sides[] = {box.max_x - box.min_x, box.max_y - box.min_y,
                                 box.max_z - box.min_z};
         const double reach = std::max({sides[0], sides[1], sides[2]}) / 32;

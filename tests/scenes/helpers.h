@@ -80,11 +80,31 @@ inline void hold_parts(const std::string& name, uint parts, bool no_others = fal
     EXPECT_EQ(next, faces.size());
 }
 
-/// Returns this machine's data folder; empty if there is none.
-inline std::string data_folder()
+/// Returns the box around object `k` in a frame.
+inline Aabb object_box(const Scene& scene, std::size_t frame, std::size_t k)
 {
-    const char* const folder = std::getenv("BVHBENCH_DATA");
-    return folder == nullptr ? "" : folder;
+    const auto& [name, first, count] = scene.objects[k];
+    return box_around(scene.frames[frame], std::span(scene.faces).subspan(first, count));
+}
+
+/// Returns how many pairs of objects have boxes that overlap in a frame.
+inline std::size_t overlapping_objects(const Scene& scene, std::size_t frame)
+{
+    std::vector<Aabb> boxes;
+    std::size_t overlapping = 0;
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+        const Aabb box = object_box(scene, frame, k);
+        overlapping +=
+            std::ranges::count_if(boxes, [&](Aabb other) { return overlap(box, other); });
+        boxes.push_back(box);
+    }
+    return overlapping;
+}
+
+/// True if all points are equal bit for bit.
+inline bool same_points(const std::vector<Point>& a, const std::vector<Point>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0;
 }
 
 }  // namespace bvhbench

@@ -538,12 +538,6 @@ std::string x_file(const Model& model, Chance&)
 
 }  // namespace
 
-std::size_t Model::triangles() const
-{
-    return std::transform_reduce(parts.begin(), parts.end(), std::size_t{0}, std::plus(),
-                                 [](const Part& part) { return part.faces.size(); });
-}
-
 unsigned below(Chance& chance, unsigned end)
 {
     return chance.is_plain ? 0 : static_cast<unsigned>(chance.numbers() % end);

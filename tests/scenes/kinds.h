@@ -32,8 +32,6 @@ struct Model {
         std::vector<std::array<unsigned, 3>> faces;
     };
     std::vector<Part> parts;  ///< objects, which share no vertices
-
-    std::size_t triangles() const;
 };
 
 /// Random numbers. If it is plain, the first choice is always taken: the spelling that every reader knows.
