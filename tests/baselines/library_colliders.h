@@ -11,12 +11,6 @@ namespace bvhbench {
 
 inline constexpr Among all_kinds[] = {Among::all, Among::between_objects, Among::within_objects};
 
-inline Input uploaded(std::span<const Point> points, std::span<const Face> faces,
-                      std::span<const FaceRange> objects = {})
-{
-    return upload(session().device(), session().queue(), points, faces, objects);
-}
-
 /// Runs one query and returns its pairs, sorted. Expects each pair to occur once.
 inline PairList found_by(Collider& collider, const Input& input)
 {

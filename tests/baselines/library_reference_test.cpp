@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Libraries' colliders find as many pairs as a separate program counted, and are listed even if they were not built.
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "geometry/hash.h"
+#include "harness/measure/frames.h"
 #include "tests/baselines/library_colliders.h"
-#include "tests/collide/many_objects.h"
+#include "tests/collide/reference_testing.h"
 
 namespace bvhbench {
 namespace {
@@ -20,17 +16,12 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
     const ColliderEntry& entry = find_collider(GetParam());
     if (entry.make == nullptr)
         GTEST_SKIP() << entry.absent;
-    const char* data = std::getenv("BVHBENCH_DATA");
-    if (data == nullptr || *data == '\0')
-        GTEST_SKIP() << "BVHBENCH_DATA is not set: nothing is compared with the data sets";
+    if (data_folder().empty())
+        GTEST_SKIP() << no_data_sets;
     for (const char* name : {"unc_cloth_ball", "unc_nbody"}) {
-        const std::filesystem::path folder = std::filesystem::path(data) / "dynamic" / name;
-        std::ifstream in(folder / "meta.json");
-        const nlohmann::json meta = nlohmann::json::parse(in);
+        const std::filesystem::path folder = data_folder() / "dynamic" / name;
+        const nlohmann::json meta = read_json(folder / "meta.json");
         const Scene scene = load_scene(folder.string(), {});
-        std::vector<FaceRange> objects;
-        for (const SceneObject& object : scene.objects)
-            objects.push_back({object.first_face, object.face_count});
         const auto whole =
             make_collider({{.keep_adjacent = false}, GetParam()}, session().programs());
         const auto between =
@@ -40,7 +31,7 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
         for (std::size_t k = 0; k < scene.frames.size(); ++k) {
             SCOPED_TRACE(std::string(name) + ", frame " + std::to_string(k));
             const nlohmann::json& reference = meta["reference"][k];
-            const Input input = uploaded(scene.frames[k], scene.faces, objects);
+            const Input input = upload_frame(session(), scene, k);
             if (k == 0) {
                 whole->reserve(nullptr, input);
                 between->reserve(nullptr, input);

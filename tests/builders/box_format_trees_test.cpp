@@ -85,8 +85,7 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
         for (const uint corner :
              {many.mesh.faces[face].a, many.mesh.faces[face].b, many.mesh.faces[face].c})
             many.mesh.points[corner].y += 5000.0f;
-    updated.input.points = many.mesh.points;
-    updated.input.device_points.upload(session().queue().cl(), many.mesh.points);
+    place(updated.input, many.mesh.points);
     using enum TreeUpdate;
     const std::vector<TreeUpdate> wanted = {rebuild, keep, refit};
     EXPECT_EQ(updated.builder->plan_update(wanted, session().queue()),

@@ -13,7 +13,7 @@ namespace {
 /// reported through `refused`; without `refused` it counts as a violation.
 std::string broken_over(const BuilderChoice& choice, const Mesh& mesh, bool* refused = nullptr)
 {
-    const Input input = upload(session().device(), session().queue(), mesh.points, mesh.faces);
+    const Input input = uploaded(mesh.points, mesh.faces);
     Oracle oracle(session(), input);
     EXPECT_EQ(session().builder(choice).card().name, choice.name);
     bool did_refuse = false;
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Catalog, EachBuilder,
 TEST(ImplicitBuilders, LineUpLeavesInTheirFirstLaunchUnlessTheyRoundThem)
 {
     const Mesh mesh = hard_inputs().front().make(777);
-    const Input input = upload(session().device(), session().queue(), mesh.points, mesh.faces);
+    const Input input = uploaded(mesh.points, mesh.faces);
     Oracle oracle(session(), input);
     for (const std::string_view name : {"oibvh-single", "perfect"})
         for (const unsigned items : {1u, 4u})

@@ -205,8 +205,7 @@ INSTANTIATE_TEST_SUITE_P(Implicit, Updating,
 TEST(Updates, OfBuildersThatTreatAllObjectsAlikeRebuildOrRefitAll)
 {
     const ManyObjects many({30, 70, 3});
-    const Input input = upload(session().device(), session().queue(), many.mesh.points,
-                               many.mesh.faces, many.objects);
+    const Input input = uploaded(many.mesh.points, many.mesh.faces, many.objects);
     const auto radix = find_builder("karras").make(session().programs(), {});
     radix->reserve_objects(object_sizes(input));
     session().build_once(*radix, input, Start::from_triangles);

@@ -13,6 +13,7 @@
 #include "scenes/catalog.h"
 #include "tests/builders/stage_testing.h"
 #include "tests/cluster/rank_tests.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 namespace {
@@ -143,11 +144,10 @@ TEST_F(Frames, OfScenesHaveThePairsOfTheOracle)
 
 TEST_F(Frames, OfRealMeshesHaveThePairsOfTheOracle)
 {
-    const char* data = std::getenv("BVHBENCH_DATA");
-    if (data == nullptr || *data == '\0')
+    if (data_folder().empty())
         GTEST_SKIP() << "BVHBENCH_DATA names no folder";
     for (const char* name : {"bunny_69451", "unc_cloth_ball", "unc_nbody"}) {
-        const Scene loaded = load_scene(name, {.data = data});
+        const Scene loaded = load_scene(name, {.data = data_folder()});
         hold_to_oracle({loaded.frames.back(), loaded.faces}, name, 0.001);
     }
 }

@@ -22,6 +22,7 @@
 #include "geometry/error.h"
 #include "harness/choice/catalog.h"
 #include "harness/judge/hard_inputs.h"
+#include "harness/measure/pipeline.h"
 #include "harness/session/session.h"
 #include "scenes/catalog.h"
 #include "tests/all_cases.h"
@@ -175,6 +176,28 @@ inline std::unique_ptr<Collider> made(std::string_view name, const ColliderOptio
     return find_collider(name).make(session().programs(), options);
 }
 
+inline Input uploaded(std::span<const Point> points, std::span<const Face> faces,
+                      std::span<const FaceRange> objects = {})
+{
+    return upload(session().device(), session().queue(), points, faces, objects);
+}
+
+/// Gives an input other points, which it refers to.
+inline void place(Input& input, std::span<const Point> points)
+{
+    input.points = points;
+    input.device_points.upload(session().queue().cl(), points);
+}
+
+/// Takes a pipeline and its input to a frame with these points.
+inline void go_to(std::span<const Point> points, Pipeline& pipeline, Input& input,
+                  std::span<const Motion> motions = {})
+{
+    place(input, points);
+    pipeline.begin_frame(motions);
+    pipeline.prepare(input);
+}
+
 /// A mesh of one or several objects on the device, with a tree of each object if there is a builder.
 struct Standing {
     Mesh mesh;
@@ -185,7 +208,7 @@ struct Standing {
     Standing(const Mesh& over, MakeBuilder make, const BuildOptions& options = {},
              std::span<const FaceRange> objects = {})
         : mesh(over)
-        , input(upload(session().device(), session().queue(), mesh.points, mesh.faces, objects))
+        , input(uploaded(mesh.points, mesh.faces, objects))
         , builder(make != nullptr ? make(session().programs(), options) : nullptr)
     {
         if (builder == nullptr)
@@ -202,8 +225,7 @@ struct Standing {
     void place(const std::vector<Point>& points)
     {
         mesh.points = points;
-        input.points = mesh.points;
-        input.device_points.upload(session().queue().cl(), mesh.points);
+        bvhbench::place(input, mesh.points);
     }
 
     void build() { session().build_once(*builder, input, Start::from_triangles, &tree); }

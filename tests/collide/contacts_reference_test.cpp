@@ -42,7 +42,7 @@ class ContactsReference : public testing::TestWithParam<KernelForm> {
 protected:
     void SetUp() override
     {
-        if (data_sets().empty())
+        if (data_folder().empty())
             GTEST_SKIP() << no_data_sets;
     }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Front tracking over frames that move a little, jump, part and return: every frame has the oracle's pairs, each once.
-#include "harness/measure/pipeline.h"
 #include "tests/collide/tracked_front.h"
 
 namespace bvhbench {
@@ -155,7 +154,7 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
 {
     const Moving moving;
     std::vector<Point> points = moving.mesh.points;
-    Input input = upload(session().device(), session().queue(), points, moving.mesh.faces);
+    Input input = uploaded(points, moving.mesh.faces);
     const BuilderChoice builder{.name = "oibvh-multi"};
     ColliderChoice front, leaf;
     front.name = "front";
@@ -163,11 +162,8 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
     Pipeline tracking(session(), builder, front, input), walking(session(), builder, leaf, input);
     for (int frame = 0; frame < 6; ++frame) {
         points = moving.moved(0.02f, frame);
-        input.device_points.upload(session().queue().cl(), points);
-        for (Pipeline* one : {&tracking, &walking}) {
-            one->begin_frame({});
-            one->prepare(input);
-        }
+        for (Pipeline* one : {&tracking, &walking})
+            go_to(points, *one, input);
         for (int repeat = 0; repeat < 3; ++repeat)
             for (Pipeline* one : {&walking, &tracking}) {
                 const std::vector<StageTime> stages = one->once(input);

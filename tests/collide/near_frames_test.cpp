@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Frames reduced to triangles near another object have the oracle's pairs between objects.
-#include "harness/measure/pipeline.h"
 #include "tests/collide/near_objects.h"
 
 namespace bvhbench {
@@ -86,8 +85,7 @@ public:
     Frames()
         : many_(row(2, 0.9f))
         , points_(many_.mesh.points)
-        , input_(upload(session().device(), session().queue(), points_, many_.mesh.faces,
-                        many_.objects))
+        , input_(uploaded(points_, many_.mesh.faces, many_.objects))
         , pipeline_(session(), {.name = "oibvh-multi"}, between("group"), input_)
     {}
 
@@ -97,10 +95,7 @@ public:
         const std::size_t half = points_.size() / 2;
         for (std::size_t k = 0; k < half; ++k)
             points_[half + k].x = points_[k].x + along * width(sphere(400));
-        input_.device_points.upload(session().queue().cl(), points_);
-        const std::vector<Motion> motions(2, motion);
-        pipeline_.begin_frame(motions);
-        pipeline_.prepare(input_);
+        go_to(points_, pipeline_, input_, std::vector(2, motion));
         stages_ = pipeline_.once(input_);
         EXPECT_EQ(PairList(pipeline_.pairs()),
                   touching_pairs(points_, many_.mesh.faces, false, many_.objects,
@@ -193,7 +188,7 @@ TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
     Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), input);
     pipeline.prepare(input);
     points.back().x = -100;  // its object's box now contains the other object
-    input.device_points.upload(session().queue().cl(), points);
+    place(input, points);
     EXPECT_THROW(pipeline.once(input), Unavailable);
     session().queue().finish();
 }

@@ -118,8 +118,7 @@ inline std::vector<std::vector<uint>> near_by_definition(const ManyObjects& many
 
 inline Input uploaded(const ManyObjects& many)
 {
-    return upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
-                  many.objects);
+    return uploaded(many.mesh.points, many.mesh.faces, many.objects);
 }
 
 inline std::size_t entering(const ManyObjects& many)

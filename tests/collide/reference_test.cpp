@@ -33,14 +33,14 @@ void expect_reference(const DataSetMesh& mesh, const nlohmann::json& reference)
 
 TEST(Reference, StaticMeshesHaveThePairsTheReferenceCounted)
 {
-    if (data_sets().empty())
+    if (data_folder().empty())
         GTEST_SKIP() << no_data_sets;
     compare_static_meshes(std::numeric_limits<std::size_t>::max(), expect_reference);
 }
 
 TEST(Reference, EveryFrameOfTheSequencesHasThePairsTheReferenceCounted)
 {
-    if (data_sets().empty())
+    if (data_folder().empty())
         GTEST_SKIP() << no_data_sets;
     compare_frames([](const DataSetMesh& mesh, const nlohmann::json& reference, bool) {
         expect_reference(mesh, reference);

@@ -5,26 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "geometry/hash.h"
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 
 constexpr auto no_data_sets = "BVHBENCH_DATA is not set: nothing is compared with the data sets";
-
-/// Returns the folder of the data sets; empty if there is none.
-inline std::filesystem::path data_sets()
-{
-    const char* folder = std::getenv("BVHBENCH_DATA");
-    return folder != nullptr ? folder : "";
-}
 
 inline nlohmann::json read_json(const std::filesystem::path& path)
 {
@@ -50,10 +41,10 @@ template <class Compare>
 void compare_static_meshes(std::size_t most_triangles, const Compare& compare)
 {
     std::size_t compared = 0;
-    const nlohmann::json references = read_json(data_sets() / "static/reference.json");
+    const nlohmann::json references = read_json(data_folder() / "static/reference.json");
     for (const auto& [name, reference] : references.items()) {
         SCOPED_TRACE(name);
-        const std::filesystem::path path = data_sets() / "static" / name;
+        const std::filesystem::path path = data_folder() / "static" / name;
         if (reference["tris"] > most_triangles || !std::filesystem::exists(path)) {
             std::cout << "large or not there, not compared: " << name << '\n';
             continue;
@@ -69,7 +60,7 @@ template <class Compare>
 void compare_frames(const Compare& compare)
 {
     std::size_t compared = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(data_sets() / "dynamic")) {
+    for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "dynamic")) {
         if (!std::filesystem::exists(entry.path() / "meta.json"))
             continue;  // nobody counted its pairs
         SCOPED_TRACE(entry.path().filename().string());

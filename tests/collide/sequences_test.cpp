@@ -3,7 +3,6 @@
 // Random sequences of frames have the same pairs and contacts with all rules of skips.h, with each alone, and with none.
 #include <cstring>
 
-#include "harness/measure/pipeline.h"
 #include "tests/collide/near_objects.h"
 #include "tests/needing.h"
 
@@ -138,19 +137,17 @@ void expect_same_answers(unsigned seed)
         pipelines.push_back(
             std::make_unique<Pipeline>(session(), builder, with_rules(asked, used), input));
     for (std::size_t frame = 0; frame < frames; ++frame) {
-        input.points = one.scene.frames[frame];
-        input.device_points.upload(session().queue().cl(), input.points);
+        const std::vector<Point>& points = one.scene.frames[frame];
         std::vector<Motion> motions;
         if (frame > 0)
             motions = object_motions(one.scene, frame - 1, frame);
-        const PairList pairs = touching_pairs(input.points, input.faces, asked.keep_adjacent,
-                                              input.objects, asked.among);
+        const PairList pairs =
+            touching_pairs(points, input.faces, asked.keep_adjacent, input.objects, asked.among);
         PairList contacts;
         for (std::size_t k = 0; k < uses.size(); ++k) {
             SCOPED_TRACE(asked.name + " frame " + std::to_string(frame) + " rules " +
                          skip_rules_text(uses[k]));
-            pipelines[k]->begin_frame(motions);
-            pipelines[k]->prepare(input);
+            go_to(points, *pipelines[k], input, motions);
             pipelines[k]->once(input);
             ASSERT_EQ(PairList(pipelines[k]->pairs()), pairs);
             served += pipelines[k]->counters().contains("listed_count") ? 1 : 0;
@@ -190,10 +187,7 @@ TEST(Margin, FindsWhatComesFromEachSideAfterRest)
         Pipeline pipeline(session(), {.name = "oibvh-multi"}, with_rules(asked, skip_margin),
                           input);
         for (int frame = 0; frame < 4; ++frame) {
-            input.points = frame < 3 ? many.mesh.points : together;
-            input.device_points.upload(session().queue().cl(), input.points);
-            pipeline.begin_frame({});
-            pipeline.prepare(input);
+            go_to(frame < 3 ? many.mesh.points : together, pipeline, input);
             EXPECT_EQ(pipeline.pairs().size(), frame < 3 ? 0u : 1u);
             EXPECT_EQ(pipeline.counters().contains("listed_count"), frame == 1 || frame == 2);
         }
@@ -216,13 +210,10 @@ public:
     /// Expects the answers of oracles in a frame with these points, each time that it is sampled. Returns its counters.
     std::map<std::string, double> frame(std::span<const Point> points)
     {
-        input_.points = points;
-        input_.device_points.upload(session().queue().cl(), points);
         const PairList pairs =
             touching_pairs(points, input_.faces, true, input_.objects, Among::all);
         const PairList contacts = intersecting_pairs(points, input_.faces, pairs.pairs(), true);
-        pipeline_->begin_frame({});
-        pipeline_->prepare(input_);
+        go_to(points, *pipeline_, input_);
         for (int sample = 0; sample < (takes_few_cases() ? 1 : 3); ++sample) {
             EXPECT_EQ(PairList(pipeline_->pairs()), pairs);
             EXPECT_EQ(PairList(pipeline_->contacts()), contacts);

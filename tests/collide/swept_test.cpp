@@ -4,10 +4,10 @@
 
 #include "collide/oracles/exact_reference.h"
 #include "harness/measure/collide.h"
-#include "harness/measure/pipeline.h"
 #include "scenes/generate/derived.h"
 #include "scenes/ground_truth.h"
 #include "tests/collide/collider_testing.h"
+#include "tests/folder.h"
 
 namespace bvhbench {
 namespace {
@@ -56,8 +56,7 @@ Scene falling_triangle()
 
 Input swept_input(const Scene& scene, const SweptParts& parts)
 {
-    Input input =
-        upload(session().device(), session().queue(), scene.frames[0], parts.faces, parts.objects);
+    Input input = uploaded(scene.frames[0], parts.faces, parts.objects);
     upload_end(input, session().device(), session().queue(), scene.frames[1]);
     return input;
 }
@@ -73,19 +72,6 @@ PairList pairs_by(const BuilderChoice& builder, const ColliderChoice& collider, 
 PairList right_pairs(const Input& input, Among among)
 {
     return touching_pairs(leaf_boxes(input), input.faces, false, input.objects, among);
-}
-
-/// True if the collider needs no tree, or accepts trees of this builder over such an input.
-bool takes(const BuilderChoice& builder, const ColliderChoice& choice, const Input& input)
-{
-    const auto collider = make_collider(choice, session().programs());
-    if (!collider->needs_tree())
-        return true;
-    const auto trees = make_builder(builder, session().programs());
-    const Tree* tree = nullptr;
-    trees->reserve_objects(object_sizes(input));
-    session().build_once(*trees, input, Start::from_triangles, &tree);
-    return collider->refusal(*tree).empty();
 }
 
 TEST(SweptParts, AreVerticesAndFacesAndEachEdgeOnceByItsLargerVertex)
@@ -125,8 +111,7 @@ TEST(SweptBoxes, OfATriangleFallingThroughASheetMeetAsCountedByHand)
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, within, swept_input(scene, edges)),
               PairList({{1, 5}, {1, 6}, {1, 7}}));
     // In a single frame, hardly anything meets.
-    const Input first =
-        upload(session().device(), session().queue(), scene.frames[0], vf.faces, vf.objects);
+    const Input first = uploaded(scene.frames[0], vf.faces, vf.objects);
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, first), PairList({{1, 8}, {3, 7}}));
 }
 
@@ -158,8 +143,7 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
     for (const int k : {0, 1}) {
         const Input input = swept_input(scene, parts[k]);
         const PairList right = right_pairs(input, among[k]);
-        const Input still = upload(session().device(), session().queue(), scene.frames[0],
-                                   parts[k].faces, parts[k].objects);
+        const Input still = uploaded(scene.frames[0], parts[k].faces, parts[k].objects);
         ASSERT_GT(right.size(), 2 * right_pairs(still, among[k]).size());
         for (int turn = 0; const ColliderEntry& collider : box_colliders(false)) {
             ++turn;
@@ -171,9 +155,7 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
                                          std::string(collider.name)};
                 choice.form = form;
                 const BuilderChoice builder = {.name = collider.needs_tree ? GetParam() : "none"};
-                if (takes(builder, choice, input)) {
-                    EXPECT_EQ(pairs_by(builder, choice, input), right);
-                }
+                EXPECT_EQ(pairs_by(builder, choice, input), right);
             }
         }
     }
@@ -266,7 +248,7 @@ TEST(SweptSteps, OverRoundedBoxesMissNothing)
 
 TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)
 {
-    if (const char* folder = std::getenv("BVHBENCH_DATA"); folder == nullptr || *folder == '\0')
+    if (data_folder().empty())
         GTEST_SKIP() << "no data folder";
     CollideTask task;
     task.scene = "ipc_armadillo_rollers";
@@ -287,7 +269,7 @@ TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)
 
 TEST(SweptSteps, OfDataFindAllThatTouchesAndAFewBesides)
 {
-    if (const char* folder = std::getenv("BVHBENCH_DATA"); folder == nullptr || *folder == '\0')
+    if (data_folder().empty())
         GTEST_SKIP() << "no data folder";
     if (!has_exact_reference)
         GTEST_SKIP() << "built without CGAL: there is no reference";

@@ -3,7 +3,6 @@
 // Tests the options `update` and `trees`: what is done to the trees of each frame, and that the pairs are the oracle's.
 
 #include "harness/measure/frames.h"
-#include "harness/measure/pipeline.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/refusal.h"
 
@@ -21,11 +20,8 @@ std::vector<Counters> run_frames(const Scene& scene, const BuilderChoice& builde
     Pipeline pipeline(session(), builder, collider, input);
     std::vector<Counters> all;
     for (std::size_t frame = 0; frame < scene.frames.size(); ++frame) {
-        input.points = scene.frames[frame];
-        input.device_points.upload(session().queue().cl(), input.points);
-        pipeline.begin_frame(frame == 0 ? std::vector<Motion>{}
-                                        : object_motions(scene, frame - 1, frame));
-        pipeline.prepare(input);
+        go_to(scene.frames[frame], pipeline, input,
+              frame == 0 ? std::vector<Motion>{} : object_motions(scene, frame - 1, frame));
         all.push_back(pipeline.counters());
         const PairList expected = touching_pairs(input.points, input.faces, collider.keep_adjacent,
                                                  input.objects, collider.among);
@@ -164,15 +160,14 @@ TEST(OneTree, GivesTheNarrowPhaseTheTrueFaces)
 {
     const Scene scene = load_scene("two-spheres:2000:6", {});
     const auto contacts_of = [&](TreeOver trees) {
-        const Input input = upload_frame(session(), scene, 5);
+        Input input = upload_frame(session(), scene, 5);
         Pipeline pipeline(
             session(), {.name = "oibvh-multi"},
             with_trees(
                 trees,
                 {{.among = Among::between_objects, .keep_adjacent = false}, "group", "exact"}),
             input);
-        pipeline.begin_frame({});
-        pipeline.prepare(input);
+        go_to(scene.frames[5], pipeline, input);
         return PairList(pipeline.contacts());
     };
     const PairList expected = contacts_of(TreeOver::object);

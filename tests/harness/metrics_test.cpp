@@ -10,6 +10,7 @@
 #include "harness/judge/end_point_overlap.h"
 #include "scenes/catalog.h"
 #include "scenes/generate/generators.h"
+#include "tests/folder.h"
 #include "tests/harness/host_lbvh.h"
 
 namespace bvhbench {
@@ -159,12 +160,9 @@ TEST(CompensatedSum, LosesNothingToALargeNumberThatGoesAgain)
 /// Returns the SAH of a linear BVH and of the Oi-BVH over a scene of the data sets; zeros if the scene is missing.
 std::pair<double, double> costs_over(const std::string& name)
 {
-    const char* folder = std::getenv("BVHBENCH_DATA");
-    SceneLibrary library;
-    library.data = folder == nullptr ? "" : folder;
     Mesh mesh;
     try {
-        Scene scene = load_scene(name, library);
+        Scene scene = load_scene(name, {.data = data_folder()});
         mesh = {std::move(scene.frames.front()), std::move(scene.faces)};
     } catch (const Unavailable& missing) {
         std::cout << missing.what() << ": not compared\n";

@@ -24,10 +24,7 @@ public:
 
     std::map<std::string, double> go_to(std::size_t frame, std::span<const Motion> motions)
     {
-        input_.points = scene_.frames[frame];
-        input_.device_points.upload(session().queue().cl(), input_.points);
-        pipeline_->begin_frame(motions);
-        pipeline_->prepare(input_);
+        bvhbench::go_to(scene_.frames[frame], *pipeline_, input_, motions);
         const std::map<std::string, double> counters = pipeline_->counters();
         for (int sample = 0; sample < 2; ++sample) {
             pipeline_->once(input_);

@@ -291,7 +291,7 @@ std::vector<NastyFile> listed(const std::filesystem::path& manifest)
 /// Loads every file of a folder of difficult meshes, listed in its MANIFEST.csv. Files listed as "load" must load.
 TEST(NastyFiles, LoadWithTheListedTrianglesOrAreRefusedInOneSentence)
 {
-    const std::filesystem::path folder = std::filesystem::path(data_folder()) / "nasty";
+    const std::filesystem::path folder = data_folder() / "nasty";
     if (!std::filesystem::exists(folder / "MANIFEST.csv"))
         GTEST_SKIP() << "BVHBENCH_DATA names no data folder with nasty/MANIFEST.csv";
     std::map<std::string, int> outcomes;
