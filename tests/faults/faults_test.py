@@ -5,20 +5,18 @@ Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so>
 
 FAULT_KILLS is the number of kills in a test (default 5), FAULT_SEED seeds their times (default 1).
 """
-import contextlib
 import json
 import os
 import pathlib
 import random
 import re
 import signal
-import subprocess
 import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
 from program import (ALL_CASES, PATIENCE_S, SOURCE, at_work, copied_kernels, expect, experiment, limit_for, main, only,  # noqa: E402
-                     planted_karras, run, valid, wait_until)
+                     planted_karras, run, small_disk, valid, wait_until)
 
 SHIM = str(pathlib.Path(sys.argv[3]).resolve())
 KILLS, SEED = int(os.environ.get("FAULT_KILLS", 5)), int(os.environ.get("FAULT_SEED", 1))
@@ -204,21 +202,6 @@ def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
            "hangs-collide.json", *common, says=f"took longer than {limit} s")
     assert only("hangs-collide.json")["status"] == "failed"
     expect(3, "check", "--builder", "karras", "--scene", "soup:300", *common, says=f"what was to be done took longer than {limit} s")
-
-
-@contextlib.contextmanager
-def small_disk(kib: int):
-    """Yields a folder with room for `kib` KiB, or None if this user may not mount one."""
-    disk = pathlib.Path(f"disk-{kib}")
-    disk.mkdir()
-    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kib}k", "tmpfs", disk], capture_output=True)
-    try:
-        if mounted.returncode:
-            print("  no small disk: this user may not mount one")
-        yield None if mounted.returncode else disk
-    finally:
-        if not mounted.returncode:
-            subprocess.run(["umount", disk], check=True)
 
 
 def test_a_crash_costs_the_cell_that_it_was_in():

@@ -3,10 +3,9 @@
 
 Usage: accuracy_test.py <bvhbench> <result schema>"""
 import pathlib
-import shutil
 import sys
 
-from program import SCHEMA, expect, main, run, valid
+from program import cells_after, copied_kernels, expect, main, run, valid
 
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
@@ -134,17 +133,6 @@ def test_accuracy_of_frames_is_exact_until_the_narrow_phase_or_the_vertices_are_
     assert pathlib.Path("f/accuracy-frames.png").exists() or "nothing was drawn" in out
 
 
-def plant(folder, rooms, *faults):
-    """Copies the kernels of some rooms and plants faults in their headers. A fault is a header, the text to replace, and its
-    replacement."""
-    for room in rooms:
-        shutil.copytree(SCHEMA.parents[2] / room, f"{folder}/{room}", ignore=shutil.ignore_patterns("*.cpp"))
-    for header, text, fault in faults:
-        path = pathlib.Path(folder) / header
-        assert path.read_text().count(text) == 1, (header, text)
-        path.write_text(path.read_text().replace(text, fault))
-
-
 def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
     formats = [line.split()[0] for line in expect(0, "list", "formats").splitlines()]
     axis = ("accuracy", "--axis", "boxes", "--scene", "torus:1500", "--samples", "1")
@@ -158,9 +146,8 @@ def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
         assert cell["check"]["verdict"] == ("counted" if false[method] else "agrees"), cell
         assert cell["check"]["contacts_hash"] == cells["f32"]["check"]["contacts_hash"], cell
     # A device rounds sides one at a time or three at once, so both functions are made to round inward.
-    plant("inward", ("geometry", "device", "builders", "oibvh", "collide"),
-          ("geometry/box_cells.h", "(is_upper ? whole_above(product)", "(!is_upper ? whole_above(product)"),
-          ("builders/stages/stored_box.clh", "is_upper ? (near < product", "!is_upper ? (near < product"))
+    copied_kernels("inward", "geometry/box_cells.h", r"\(is_upper \? whole_above\(product\)", "(!is_upper ? whole_above(product)",
+                   "builders/stages/stored_box.clh", r"is_upper \? \(near < product", "!is_upper ? (near < product")
     expect(1, *axis, "--filter", "/u8$", "--kernels", "inward", "--out", "inward-out", says="pairs missed")
     cell, = valid("inward-out/accuracy-boxes.json")["cells"]
     assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
@@ -168,12 +155,10 @@ def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
 
 def test_collide_judges_rounded_boxes_by_what_they_miss():
     command = ("collide", "--collider", "group", "--scene", "torus:1500", "--samples", "1", "--adjacent", "drop")
-    expect(0, *command, "--boxes", "u8", "--narrow", "none", "--json", "rounded.json", says="0 pairs missed")
-    cell, = valid("rounded.json")["cells"]
+    cell, = cells_after(*command, "--boxes", "u8", "--narrow", "none", says="0 pairs missed")
     assert cell["builder"]["options"]["boxes"] == "u8" and cell["builder"]["options"]["leaves"] == "sorted", cell
     assert cell["check"]["verdict"] == "counted" and cell["counters"]["false_pairs_count"] > 0, cell
-    expect(0, *command, "--boxes", "u8", "--narrow", "exact", "--json", "decided.json",
-           says="verdict: agrees with CGAL boxes, CGAL")
+    expect(0, *command, "--boxes", "u8", "--narrow", "exact", says="verdict: agrees with CGAL boxes, CGAL")
     expect(0, *command, "--boxes", "f64", "--narrow", "none", says="verdict: agrees with CGAL boxes")
     expect(2, *command, "--boxes", "u7", says="there are: f32, f64, f16, u16, u8")
     expect(2, *command, "--boxes", "u8", "--leaves", "mesh", says="leaves must be sorted")
@@ -182,13 +167,10 @@ def test_collide_judges_rounded_boxes_by_what_they_miss():
 
 
 def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():
-    source = SCHEMA.parents[2]
-    plant("faulty", ("geometry", "device", "collide"),
-          ("geometry/orient.h", "return 0x1.8p-48 * most.x", "return 0x1.8p-90 * most.x"))
-    sound, faulty = (("accuracy", "--axis", "narrow", "--pairs", "3000", "--samples", "1", "--filter",
-                      "^same_place/.*exact$", "--kernels", where) for where in (str(source), "faulty"))
-    expect(0, *sound, "--out", "sound", says=" agrees")
-    out = expect(1, *faulty, "--out", "planted")
+    narrow = ("accuracy", "--axis", "narrow", "--pairs", "3000", "--samples", "1", "--filter", "^same_place/.*exact$")
+    expect(0, *narrow, "--out", "sound", says=" agrees")
+    kernels = copied_kernels("faulty", "geometry/orient.h", r"return 0x1.8p-48 \* most.x", "return 0x1.8p-90 * most.x")
+    out = expect(1, *narrow, "--kernels", kernels, "--out", "planted")
     cell, = valid("planted/accuracy-narrow.json")["cells"]
     assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
     assert "nothing was drawn" in out, out  # a wrong answer has no figure and no time
@@ -198,8 +180,7 @@ def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():
 
 def test_collide_counts_what_a_narrow_phase_that_rounds_gets_wrong():
     common = ("collide", "--collider", "leaf", "--scene", "two-spheres:3000", "--samples", "1")
-    expect(0, *common, "--adjacent", "drop", "--narrow", "guigue-f64", "--json", "g.json", says="contacts missed")
-    cell, = valid("g.json")["cells"]
+    cell, = cells_after(*common, "--adjacent", "drop", "--narrow", "guigue-f64", says="contacts missed")
     assert cell["check"]["verdict"] == "counted" and cell["collider"]["options"]["narrow"] == "guigue-f64", cell
     assert {"missed_count", "false_count"} <= set(cell["counters"])
     expect(0, *common, "--adjacent", "drop", "--narrow", "filter-f64+exact", says="verdict: agrees with CGAL boxes, CGAL")

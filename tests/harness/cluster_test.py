@@ -13,7 +13,7 @@ import sys
 import time
 import uuid
 
-from program import ALL_CASES, PATIENCE_S, PROGRAM, SOURCE, at_work, copied_kernels, expect, main, run, valid, wait_until
+from program import ALL_CASES, PATIENCE_S, PROGRAM, SOURCE, at_work, copied_kernels, expect, main, run, small_disk, valid, wait_until
 
 SHARED = ("--share-devices", "--force")
 UNNAMED = ", and so were the others; mpirun does not say which\n"  # of a rank that is lost while it starts
@@ -330,16 +330,10 @@ def test_a_rank_that_mpirun_does_not_name_is_said_to_be_lost():
 
 
 def test_too_little_room_for_the_session_is_a_sentence_at_once():
-    disk = pathlib.Path("session").resolve()
-    disk.mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", disk], capture_output=True).returncode:
-        print("  no small disk: this user may not mount one")
-        return
-    try:
-        expect(3, "cluster", "torus:2000", "--ranks", "2", "--share-devices", TMPDIR=str(disk),
-               says=f"mpirun keeps its session in '{disk}' (TMPDIR), which has room for 65536 bytes, and 16777216 are needed")
-    finally:
-        subprocess.run(["umount", disk], check=True)
+    with small_disk(64) as disk:
+        if disk is not None:
+            expect(3, "cluster", "torus:2000", "--ranks", "2", "--share-devices", TMPDIR=str(disk),
+                   says=f"mpirun keeps its session in '{disk}' (TMPDIR), which has room for 65536 bytes, and 16777216 are needed")
 
 
 def stopped_rank(mark: str, rank: str) -> int | None:

@@ -6,7 +6,7 @@ import pathlib
 import random
 import sys
 
-from program import expect, main, only, run, valid
+from program import cells_after, expect, main, only, run, valid
 
 TREELESS = ("grid", "all-pairs", "sort-sweep", "brute", "embree", "embree-refit")  # colliders that query no tree
 
@@ -44,8 +44,8 @@ def test_collide_writes_a_valid_result_and_the_pairs():
 
 def test_collide_goes_through_frames_and_objects_to_contacts():
     common = ("--scene", "n-body:6100:3", "--samples", "2", "--adjacent", "drop", "--narrow", "exact")
-    expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
-    assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
+    leaf = ("collide", "--collider", "leaf", *common)
+    assert [cell["scene"]["frame"] for cell in cells_after(*leaf, "--frames", "1:", "--between", "1")] == [1, 2, 3, 4]
     shown = expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
            "--json", "f.json", "--pairs", "p.csv", "--force", "--contacts", "k.csv", "--skips", says="skips:")
     cells = valid("f.json")["cells"]
@@ -64,8 +64,7 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
         assert not near or 0 < cell["counters"]["entered_count"] < cell["scene"]["triangles"] / 2, cell
     rows = [line.split() for line in shown.splitlines() if line.split()[2:3] == ["near"]]
     assert [int(row[3].replace(",", "")) > 3050 for row in rows] == [True, True, False], shown
-    expect(0, "collide", "--collider", "leaf", *common, "--pairs-of", "between", "--no-skip", "near", "--json", "n.json")
-    whole = only("n.json")
+    whole, = cells_after(*leaf, "--pairs-of", "between", "--no-skip", "near")
     assert whole["collider"]["options"]["no_skip"] == "near" and "entered_count" not in whole["counters"], whole
     assert whole["check"]["contacts_hash"] == next(cell for cell in cells if cell["scene"]["frame"] == 0)["check"]["contacts_hash"]
     pairs, contacts = (pathlib.Path(name).read_text().splitlines() for name in ("p.csv", "k.csv"))
@@ -75,8 +74,8 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
             count = next(cell for cell in cells if cell["scene"]["frame"] == frame)["counters"][f"{kind}_count"]
             assert sum(line.startswith(f"{frame},") for line in lines) == count, (kind, frame)
     assert len(pairs) > 100
-    expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json", says="verdict: agrees with CGAL boxes, CGAL")
-    assert only("o.json")["scene"]["objects"] == 1
+    one, = cells_after(*leaf, "--objects", "one", says="verdict: agrees with CGAL boxes, CGAL")
+    assert one["scene"]["objects"] == 1
     for code, says, *words in ((2, "has frames 0 to 2, not 2 to before 9", *common, "--frames", "2:9"),
                                (2, "there are: unchanged, rigid, ", *common, "--no-skip", "lunch"),
                                (2, "--narrow exact", "--scene", "soup:9", "--contacts", "k.csv"),

@@ -2,11 +2,10 @@
 """Tests `collide --exclude`: which pairs of objects are left out, what cells tell, and the messages for wrong words."""
 import csv
 import itertools
-import json
 import pathlib
 import sys
 
-from program import expect, main, only, valid
+from program import cells_after, expect, experiment, main, only
 
 LINKS = ("base", "upper_arm", "lower", "hand")
 COLLIDE = ("collide", "--scene", "arm.obj", "--samples", "1", "--force")
@@ -47,8 +46,8 @@ def test_pairs_of_excluded_objects_are_not_in_the_answer():
 
 def test_contacts_are_of_the_same_objects():
     write_arm()
-    expect(0, *COLLIDE, "--collider", "leaf", "--narrow", "exact", "--exclude", "0,1", "--json", "f.json", says="CGAL")
-    assert only("f.json")["check"]["verdict"] == "agrees"
+    cell, = cells_after(*COLLIDE, "--collider", "leaf", "--narrow", "exact", "--exclude", "0,1", says="CGAL")
+    assert cell["check"]["verdict"] == "agrees"
 
 
 def test_a_file_has_pairs_groups_and_masks():
@@ -66,11 +65,8 @@ def test_a_file_has_pairs_groups_and_masks():
 
 def test_experiments_have_the_same_key():
     write_arm()
-    pathlib.Path("own.json").write_text(json.dumps({
-        "experiment": "own", "scenes": [{"scene": "arm.obj", "exclude": "0,1; 2,3"}], "samples": 1,
-        "pipelines": [{"builder": "oibvh-multi", "collider": ["leaf", "grid"]}]}))
-    expect(0, "run", "own.json", "--out", "own.out.json", "--force")
-    leaf, grid = valid("own.out.json")["cells"]
+    leaf, grid = cells_after("run", experiment("own.json", scenes=[{"scene": "arm.obj", "exclude": "0,1; 2,3"}], pipelines=[
+        {"builder": "oibvh-multi", "collider": ["leaf", "grid"]}]))
     assert leaf["status"] == "measured" and leaf["scene"]["exclude"] == "0,1; 2,3", leaf
     assert grid["status"] == "skipped" and "leaf, bvtt, group, block, brute" in grid["reason"], grid
 

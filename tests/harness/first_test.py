@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """Tests `collide --first`: whether there is a contact, what cells tell, and the messages for what does not go with it."""
-import json
 import pathlib
 import sys
 
-from program import copied_kernels, expect, main, only, valid
+from program import cells_after, copied_kernels, expect, experiment, main, only
 
 COLLIDE = ("collide", "--collider", "leaf", "--samples", "2", "--force", "--first", "--scene")
 
@@ -38,17 +37,13 @@ def test_a_wrong_answer_differs():
                                      ("first_contact", r"\(verdict & VERDICT_MEET\) != 0u", "true", "is no contact of the oracle's")):
         suffix = "cl" if file == "first_contact" else "clh"
         copied_kernels("k", f"collide/first/{file}.{suffix}", pattern, text)
-        expect(1, *COLLIDE, "two-spheres:1200:1", "--pairs-of", "between", "--kernels", "k", "--json", "w.json")
-        check = only("w.json")["check"]
-        assert check["verdict"] == "differs" and why in check["detail"], check
+        cell, = cells_after(*COLLIDE, "two-spheres:1200:1", "--pairs-of", "between", "--kernels", "k", code=1)
+        assert cell["check"]["verdict"] == "differs" and why in cell["check"]["detail"], cell
 
 
 def test_other_colliders_are_skipped_with_the_reason():
-    pathlib.Path("own.json").write_text(json.dumps({
-        "experiment": "own", "scenes": ["torus:700"], "samples": 1,
-        "pipelines": [{"builder": "oibvh-multi", "collider": ["leaf", "group"], "adjacent": "drop", "first": True}]}))
-    expect(0, "run", "own.json", "--out", "own.out.json", "--force")
-    leaf, group = valid("own.out.json")["cells"]
+    leaf, group = cells_after("run", experiment("own.json", scenes=["torus:700"], pipelines=[
+        {"builder": "oibvh-multi", "collider": ["leaf", "group"], "adjacent": "drop", "first": True}]))
     assert leaf["status"] == "measured" and leaf["first_contact"] == [], leaf
     assert group["status"] == "skipped" and group["reason"].startswith("the collider group finds all pairs; leaf ends at"), group
 

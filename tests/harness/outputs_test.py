@@ -4,7 +4,6 @@ import contextlib
 import json
 import os
 import pathlib
-import pty
 import resource
 import shutil
 import stat
@@ -12,7 +11,7 @@ import subprocess
 import sys
 import threading
 
-from program import PATIENCE_S, PROGRAM, at_work, expect, experiment, main, run, valid, wait_until
+from program import PATIENCE_S, PROGRAM, at_work, expect, experiment, main, on_a_terminal, run, valid, wait_until
 
 BUILD = ("build", "--builder", "median-split", "--scene", "soup:50", "--samples", "1")
 COLLIDE = ("collide", "--collider", "brute", "--scene", "soup:50", "--samples", "1")
@@ -249,16 +248,8 @@ def test_names_cannot_command_a_terminal():
             out = expect(0, *words)
             assert spelled in out and name not in out, (words, out)
     name = "\x1b[31mred\x07.obj"
-    ours, theirs = pty.openpty()
-    with subprocess.Popen([PROGRAM, "run", of_scenes("x.json", name), "--out", "r.json"], stdout=theirs,
-                          stderr=theirs) as process:
-        os.close(theirs)
-        shown = b""
-        with contextlib.suppress(OSError):  # a terminal reports this when its other side is closed
-            while part := os.read(ours, 4096):
-                shown += part
-    os.close(ours)
-    assert process.returncode == 0 and b"\x1b[31m" not in shown and b"\\x1b[31mred" in shown, shown
+    shown = on_a_terminal("run", of_scenes("x.json", name), "--out", "r.json")
+    assert "\x1b[31m" not in shown and "\\x1b[31mred" in shown, shown
 
 
 sys.exit(main(globals(), begin))

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import pty
 import re
 import shutil
 import signal
@@ -63,17 +64,23 @@ def only(path: str) -> dict:
     return cell
 
 
+def cells_after(*words: str, code: int = 0, says: str = "", **environment: str) -> list[dict]:
+    """Runs a command that measures as `expect` does, and returns the cells of its result file, r.json."""
+    expect(code, *words, "--out" if words[0] == "run" else "--json", "r.json", "--force", says=says, **environment)
+    return valid("r.json")["cells"]
+
+
 def experiment(path: str, **keys) -> str:
     """Writes an experiment and returns its path. The defaults are one sample and no warm-up."""
     pathlib.Path(path).write_text(json.dumps({"experiment": "test", "question": "?", "samples": 1, "warm_up": 0, **keys}))
     return path
 
 
-def copied_kernels(folder: str, file: str = "", pattern: str = "", replacement: str = "") -> str:
-    """Copies all kernels into a folder for --kernels. In `file`, each match of `pattern` is replaced."""
+def copied_kernels(folder: str, *faults: str) -> str:
+    """Copies all kernels into a folder for --kernels. A fault is a file, a pattern and what replaces each match of it in the file."""
     for room in ROOMS_OF_KERNELS:
         shutil.copytree(SOURCE / room, pathlib.Path(folder, room), ignore=shutil.ignore_patterns("*.cpp", "*.txt"), dirs_exist_ok=True)
-    if file:
+    for file, pattern, replacement in zip(*(faults[k::3] for k in range(3)), strict=True):
         planted = pathlib.Path(folder, file)
         text, count = re.subn(pattern, replacement, planted.read_text())
         assert count > 0, (file, pattern)
@@ -96,11 +103,40 @@ def at_work(*words: str, **environment: str) -> Iterator[subprocess.Popen]:
             process.kill()
 
 
+def on_a_terminal(*words: str) -> str:
+    """Runs the program on a terminal of 80 columns without colours, tests that it succeeds, and returns what it shows."""
+    own, child = pty.openpty()
+    with subprocess.Popen([PROGRAM, *words], stdout=child, stderr=child,
+                          env={**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}) as process, os.fdopen(own, "rb", buffering=0) as shown:
+        os.close(child)
+        text = b""
+        with contextlib.suppress(OSError):  # when the terminal's other end is closed
+            while part := shown.read(4096):
+                text += part
+    assert process.returncode == 0, text
+    return text.decode()
+
+
 def ended(process: subprocess.Popen, sent: signal.Signals) -> tuple[str, str]:
     """Sends a signal to a running process and returns its output and errors."""
     assert process.poll() is None, process.communicate()
     process.send_signal(sent)
     return process.communicate(timeout=PATIENCE_S)
+
+
+@contextlib.contextmanager
+def small_disk(kib: int) -> Iterator[pathlib.Path | None]:
+    """Yields a folder with room for `kib` KiB, or None if this user may not mount one."""
+    disk = pathlib.Path(f"disk-{kib}").resolve()
+    disk.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kib}k", "tmpfs", disk], capture_output=True).returncode:
+        print("  no small disk: this user may not mount one")
+        yield None
+        return
+    try:
+        yield disk
+    finally:
+        subprocess.run(["umount", disk], check=True)
 
 
 def wait_until(happens: Callable[[], object]) -> None:

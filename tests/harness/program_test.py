@@ -1,15 +1,12 @@
 #!/usr/bin/env python3
 """Tests the program's exit codes, output and result files."""
-import contextlib
 import json
 import os
 import pathlib
-import pty
 import re
-import subprocess
 import sys
 
-from program import PROGRAM, expect, experiment, main, only, valid
+from program import cells_after, expect, experiment, main, only, on_a_terminal, valid
 
 PERFECT = "build --builder perfect --scene soup:5"
 SENTENCES = (
@@ -56,13 +53,11 @@ def test_exit_codes_and_sentences():
 
 
 def test_combinations_of_names_are_cells_of_one_run():
-    expect(0, "build", "--builder", "karras,perfect", "--order", "kd", "morton30", "--scene", "soup:0.3k", "--samples", "1",
-           "--json", "several.json")
-    cells = [(cell["scene"]["name"], cell["builder"]["name"], cell["builder"]["options"]["order"]) for cell in valid("several.json")["cells"]]
+    cells = [(cell["scene"]["name"], cell["builder"]["name"], cell["builder"]["options"]["order"]) for cell in cells_after(
+        "build", "--builder", "karras,perfect", "--order", "kd", "morton30", "--scene", "soup:0.3k", "--samples", "1")]
     assert cells == [("soup:300", builder, order) for builder in ("karras", "perfect") for order in ("kd", "morton30")], cells
-    expect(0, "collide", "--builder", "karras,perfect", "--collider", "leaf,grid", "--scene", "soup:300", "--samples", "1",
-           "--json", "frames.json")
-    cells = [(cell["collider"]["name"], cell["builder"]["name"]) for cell in valid("frames.json")["cells"]]
+    cells = [(cell["collider"]["name"], cell["builder"]["name"]) for cell in cells_after(
+        "collide", "--builder", "karras,perfect", "--collider", "leaf,grid", "--scene", "soup:300", "--samples", "1")]
     assert cells == [("leaf", "karras"), ("leaf", "perfect"), ("grid", "none")], cells
 
 
@@ -73,27 +68,19 @@ def test_lists_put_the_name_first():
     assert [name for name in first if name in known] == known, first  # whatever docs/adding-a-builder.md adds between them
 
 
-def on_a_terminal(*words: str) -> list[str]:
-    """Runs the program on a terminal of 80 columns. Returns what it shows, line by line, with each state of its line of progress."""
-    own, child = pty.openpty()
-    with subprocess.Popen([PROGRAM, *words], stdout=child, stderr=child,
-                          env={**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}) as process, os.fdopen(own, "rb", buffering=0) as shown:
-        os.close(child)
-        text = b""
-        with contextlib.suppress(OSError):  # when the terminal's other end is closed
-            while part := shown.read(4096):
-                text += part
-    assert process.returncode == 0, text
-    return re.split("[\r\n]+(?:\x1b\\[K)?", text.decode())
+def lines_of(shown: str) -> list[str]:
+    """Returns what a terminal shows line by line, with each state of the line of progress."""
+    return re.split("[\r\n]+(?:\x1b\\[K)?", shown)
 
 
 def test_a_terminal_has_narrow_lists_and_the_time_that_a_run_takes():
     for what in ("scenes", "builders", "devices", "experiments"):
-        narrow, whole = on_a_terminal("list", what), expect(0, "list", what)
+        narrow, whole = lines_of(on_a_terminal("list", what)), expect(0, "list", what)
         assert max(map(len, narrow)) <= 80 < max(map(len, whole.splitlines())), narrow
         assert " ".join(narrow).replace(";", " ").split() == whole.replace(";", " ").split(), narrow  # nothing is left out
-        assert on_a_terminal("list", what, "--wide") == whole.split("\n"), what
-    shown = on_a_terminal("collide", "--collider", "leaf", "--scene", "cloth-ball:2000:2", "--frames", "0:", "--samples", "1000", "--quiet")
+        assert lines_of(on_a_terminal("list", what, "--wide")) == whole.split("\n"), what
+    shown = lines_of(on_a_terminal("collide", "--collider", "leaf", "--scene", "cloth-ball:2000:2", "--frames", "0:", "--samples", "1000",
+                                   "--quiet"))
     assert max(map(len, shown)) < 80 and shown[0] == "" and shown[1] == "[1/1] cloth-ball:2000:2", shown
     assert any(re.fullmatch(r"\[1/1\] about \d+ s left: cloth-ball:2000:2, frame \d, sample \d+ of 1003", line) for line in shown), shown
 
@@ -124,15 +111,12 @@ def test_build_writes_a_valid_result_and_the_tree_as_it_was_asked_for():
 
 
 def test_quality_has_no_number_where_it_has_no_value():
-    expect(0, "build", "--builder", "oibvh-multi", "--scene", "grid:300", "--samples", "1", "--epo",
-           "--json", "q.json", "--force", says="epo")
-    cell = only("q.json")
+    build = ("build", "--builder", "oibvh-multi", "--samples", "1", "--scene")
+    cell, = cells_after(*build, "grid:300", "--epo", says="epo")
     assert {"epo", "epo_inner", "epo_leaf", "sibling_overlap", "sah_cost"} <= set(cell["counters"])
     assert "left_out" not in cell
     pathlib.Path("line.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 3 2 1\n")
-    expect(0, "build", "--builder", "oibvh-multi", "--scene", "line.obj", "--samples", "1", "--quality",
-           "--json", "q.json", "--force")
-    cell = only("q.json")
+    cell, = cells_after(*build, "line.obj", "--quality")
     assert not {"epo", "sibling_overlap", "sah_cost", "sah_inner", "sah_leaf"} & set(cell["counters"])
     assert set(cell["left_out"]) == {"epo", "sibling_overlap", "sah_cost"}
     assert cell["counters"]["depth_max"] == 1
@@ -170,8 +154,7 @@ def test_run_and_show_agree():
 def test_an_experiment_of_ones_own():
     experiment("mine.json", scenes=[{"scene": "soup:{t}", "t": {"from": 1, "to": 3}}], builders=["perfect"], stages=["hierarchy"],
                samples=2)
-    expect(0, "run", "mine.json", "--out", "m.json")
-    cells = valid("m.json")["cells"]
+    cells = cells_after("run", "mine.json")
     assert [cell["scene"]["triangles"] for cell in cells] == [1, 2, 3]
     assert {s["stage"] for c in cells for m in c["samples"] for s in m["stages"]} == {"hierarchy"}
     expect(2, "run", experiment("wrong.json", scense=[]), says="'scense' is no key of an experiment")

@@ -5,7 +5,7 @@ import statistics
 import subprocess
 import sys
 
-from program import PATIENCE_S, PROGRAM, copied_kernels, expect, experiment, main, only, valid
+from program import PATIENCE_S, PROGRAM, cells_after, copied_kernels, expect, experiment, main, only, valid
 
 BUILD = ("build", "--builder", "oibvh-multi", "--scene", "torus:3000")
 
@@ -23,23 +23,18 @@ def test_a_fixed_number_is_what_was_asked_for() -> None:
 
 def test_a_target_stops_and_says_why() -> None:
     # Builds that take long: beside them, what other processes delay a sample is little.
-    expect(0, *BUILD[:-1], "torus:300000", "--until", "100%", "--min-samples", "10", "--json", "a.json", "--force", says="within 100.0 %")
-    cell = only("a.json")
+    cell, = cells_after(*BUILD[:-1], "torus:300000", "--until", "100%", "--min-samples", "10", says="within 100.0 %")
     assert cell["sampling"] == {"stopped": "steady", "caches": "hot", "until": 1}
     assert 10 <= len(cell["samples"]) < 200
-    expect(0, *BUILD, "--until", "0.01%", "--max-samples", "20", "--json", "a.json", "--force", says="no more are allowed")
-    cell = only("a.json")
+    cell, = cells_after(*BUILD, "--until", "0.01%", "--max-samples", "20", says="no more are allowed")
     assert cell["sampling"]["stopped"] == "most" and len(cell["samples"]) == 20
-    expect(0, *BUILD, "--until", "0.01%", "--min-samples", "9", "--max-samples", "100000", "--time-budget", "0.2",
-           "--json", "a.json", "--force")
-    assert only("a.json")["sampling"]["stopped"] in ("budget", "noisy")
+    cell, = cells_after(*BUILD, "--until", "0.01%", "--min-samples", "9", "--max-samples", "100000", "--time-budget", "0.2")
+    assert cell["sampling"]["stopped"] in ("budget", "noisy")
     experiment("until.json", scenes=["soup:500"], builders=["perfect"], until=0.9, caches="cold",
                pipelines=[{"builder": "karras", "collider": "leaf"}])
-    expect(0, "run", "until.json", "--out", "a.json", "--force")
-    for cell in valid("a.json")["cells"]:
+    for cell in cells_after("run", "until.json"):
         assert cell["sampling"]["caches"] == "cold" and cell["sampling"]["until"] == 0.9, cell
-    expect(0, "run", "until.json", "--samples", "2", "--out", "a.json", "--force")
-    assert all(len(cell["samples"]) == 2 for cell in valid("a.json")["cells"])
+    assert all(len(cell["samples"]) == 2 for cell in cells_after("run", "until.json", "--samples", "2"))
 
 
 def test_what_makes_no_sense_is_refused() -> None:
@@ -68,8 +63,7 @@ def test_each_kind_of_caches_has_cells_of_its_own() -> None:
     kinds = ["hot", "cold", "host"]
     experiment("kinds.json", scenes=[{"scene": "torus:3000", "objects": "one"}], builders=["oibvh-single"], samples=4,
                pipelines=[{"builder": "oibvh-single", "collider": "block", "narrow": "exact"}, {"collider": "brute"}], caches=kinds)
-    expect(0, "run", "kinds.json", "--out", "a.json", "--force")
-    cells = valid("a.json")["cells"]
+    cells = cells_after("run", "kinds.json")
     assert [cell["sampling"]["caches"] for cell in cells] == 3 * kinds
     assert all(len(cell["samples"]) == 4 and cell["check"]["verdict"] == "agrees" for cell in cells)
     for cell in cells:
@@ -84,8 +78,7 @@ def test_each_kind_of_caches_has_cells_of_its_own() -> None:
             if is_host:
                 assert names[0] == "upload" and (names[-1] == "read_back") == is_frame
                 assert sample["wall_ns"] >= sum(stage.get("wall_ns", 0) + stage.get("busy_ns", 0) for stage in sample["stages"])
-    expect(0, "run", "kinds.json", "--caches", "host", "--out", "b.json", "--force")
-    assert [cell["sampling"]["caches"] for cell in valid("b.json")["cells"]] == 3 * ["host"]
+    assert [cell["sampling"]["caches"] for cell in cells_after("run", "kinds.json", "--caches", "host")] == 3 * ["host"]
     expect(2, "run", "kinds.json", "--caches", "warm", says="caches are hot, cold or host, not 'warm'")
     expect(2, "run", "kinds.json", "--race", "whole", says="--caches: a race is with hot or with cold ones")
 

@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-from program import KEPT, PATIENCE_S, PROGRAM, SCHEMA, SOURCE, at_work, children, expect, experiment, main, ours, planted_karras, run, valid, wait_until
+from program import KEPT, PATIENCE_S, PROGRAM, SCHEMA, SOURCE, at_work, children, expect, main, ours, planted_karras, run, valid, wait_until
 
 PRODUCT = ("--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--orders", "morton30,hilbert30", "--samples", "2",
            "--warm-up", "0")

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Tests `collide --within`: pairs within a distance, what cells tell, and the messages for what does not go with it."""
 import itertools
-import json
 import math
 import pathlib
 import random
 import sys
 from fractions import Fraction
 
-from program import copied_kernels, expect, main, only, valid
+from program import cells_after, copied_kernels, expect, experiment, main, only, valid
 
 COLLIDE = ("collide", "--collider", "leaf", "--samples", "2", "--force", "--scene")
 HEADING = "frame,object_a,object_b,a,b,distance,ax,ay,az,bx,by,bz"
@@ -120,8 +119,7 @@ def test_frames_objects_and_trees_have_theirs():
                   ("cloth-ball:2000:4", "--frames", "0:", "--update", "refit"), ("cloth-ball:2000:4", "--frames", "0:", "--force-skip", "margin"),
                   ("cloth-ball:2000:4", "--frames", "0:3", "--builder", "karras", "--boxes", "u16"),
                   ("cloth-ball:2000:4", "--frames", "1:3", "--features", "--builder", "oibvh-single", "--boxes", "u16")):
-        expect(0, *COLLIDE, *words, "--within", "1%", "--json", "w.json")
-        cells = valid("w.json")["cells"]
+        cells = cells_after(*COLLIDE, *words, "--within", "1%")
         assert {cell["check"]["verdict"] for cell in cells} == {"agrees"} and len({cell["within_distance"] for cell in cells}) == 1, cells
 
 
@@ -129,16 +127,14 @@ def test_wrong_pairs_differ():
     for file, pattern, text in (("distance_filter.h", r"\) <= low", ") <= 4.0 * low"), ("pad.cl", r"p \+ reach", "p + 0.5f * reach")):
         copied_kernels("k", f"collide/within/{file}", pattern, text)
         for words in ((), ("--features",)):
-            expect(1, *COLLIDE, "two-spheres:1200:1", "--within", "2%", *words, "--kernels", "k", "--json", "w.json")
-            assert {cell["check"]["verdict"] for cell in valid("w.json")["cells"]} == {"differs"}, valid("w.json")
+            cells = cells_after(*COLLIDE, "two-spheres:1200:1", "--within", "2%", *words, "--kernels", "k", code=1)
+            assert {cell["check"]["verdict"] for cell in cells} == {"differs"}, cells
 
 
 def test_others_are_skipped_with_the_reason():
-    pathlib.Path("own.json").write_text(json.dumps({
-        "experiment": "own", "scenes": [{"scene": "torus:700", "features": True, "pairs_of": "within"}], "samples": 1,
-        "pipelines": [{"builder": "oibvh-multi", "collider": "leaf", "within": 0.5}, {"collider": "brute", "within": 0.5}]}))
-    expect(0, "run", "own.json", "--out", "own.out.json", "--force")
-    leaf, brute = valid("own.out.json")["cells"]
+    leaf, brute = cells_after("run", experiment(
+        "own.json", scenes=[{"scene": "torus:700", "features": True, "pairs_of": "within"}],
+        pipelines=[{"builder": "oibvh-multi", "collider": "leaf", "within": 0.5}, {"collider": "brute", "within": 0.5}]))
     assert leaf["status"] == "measured" and leaf["within_distance"] == 0.5 and leaf["features"]["pairs"] == "edge-edge", leaf
     assert brute["status"] == "skipped" and brute["reason"].startswith("'within' pads boxes on the device"), brute
 

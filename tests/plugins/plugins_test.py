@@ -12,7 +12,7 @@ import sys
 from collections.abc import Iterable
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
-from program import PROGRAM, SOURCE, expect, experiment, limit_for, main, ours, run, valid, wait_until  # noqa: E402
+from program import PROGRAM, SOURCE, cells_after, expect, experiment, limit_for, main, ours, run, valid, wait_until  # noqa: E402
 
 GOOD, NO_SYMBOL = (str(pathlib.Path(word).resolve()) for word in sys.argv[3:5])
 PLAIN = str(SOURCE / "tests/plugins/program.py")
@@ -112,8 +112,7 @@ def test_pairs_from_outside_go_through_our_narrow_phase():
 
 def test_a_refit_is_judged():
     plan = experiment("refit.json", scenes=["cloth-ball:300:2"], builders=["halves"], operations=["build", "refit"])
-    run("run", plan, "--plugin", GOOD, "--out", "refit-result.json")
-    both = valid("refit-result.json")["cells"]
+    both = cells_after("run", plan, "--plugin", GOOD)
     assert [(cell["operation"], cell["check"]["verdict"]) for cell in both] == [("build", "agrees"), ("refit", "agrees")]
 
 
