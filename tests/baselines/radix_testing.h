@@ -69,10 +69,7 @@ inline void expect_the_trees_of(MakeBuilder make_reference, std::span<const Make
     const auto triangles = mesh.faces.size();
     const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
     for (const BuildOptions& options : ways) {
-        const auto reference = make_reference(bench().programs, options);
-        reference->reserve(triangles);
-        const HostTree expected = reference->build(input, bench().queue).to_host_tree();
-        ASSERT_EQ(invariant_violation(expected, mesh.points, mesh.faces), "");
+        const HostTree expected = tree_over(make_reference, mesh, options);
         for (const MakeBuilder make : makers) {
             const auto builder = make(bench().programs, options);
             SCOPED_TRACE(std::string(builder->card().name) + ", " + std::to_string(triangles) +

@@ -14,9 +14,9 @@ inline Mesh mesh_of(const std::string& scene)
 }
 
 /// Builds a tree over a mesh and returns it. Expects it to be valid.
-inline HostTree tree_over(MakeBuilder make, const Mesh& mesh)
+inline HostTree tree_over(MakeBuilder make, const Mesh& mesh, const BuildOptions& options = {})
 {
-    const auto builder = make(bench().programs, {});
+    const auto builder = make(bench().programs, options);
     const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
     builder->reserve(mesh.faces.size());
     const HostTree tree = builder->build(input, bench().queue).to_host_tree();

@@ -8,6 +8,7 @@
 
 #include "cluster/partition.h"
 #include "geometry/scene_bounds.h"
+#include "tests/brute_pairs.h"
 #include "tests/cluster/thread_ranks.h"
 
 namespace bvhbench {
@@ -37,16 +38,6 @@ std::vector<Aabb> tops_of(std::span<const Aabb> boxes)
         top = merged(top, boxes[k]);
     }
     return tops;
-}
-
-std::vector<Pair> brute_pairs(std::span<const Aabb> boxes)
-{
-    std::vector<Pair> pairs;
-    for (uint a = 0; a < boxes.size(); ++a)
-        for (uint b = a + 1; b < boxes.size(); ++b)
-            if (overlap(boxes[a], boxes[b]))
-                pairs.push_back({a, b});
-    return pairs;
 }
 
 /// Returns the pairs that ranks find among `boxes`, rank after rank, if rank part[k] owns box k.

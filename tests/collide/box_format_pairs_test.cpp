@@ -4,6 +4,7 @@
 // the number of false pairs is known beforehand.
 
 #include "scenes/generate/generators.h"
+#include "tests/brute_pairs.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {
@@ -33,12 +34,8 @@ std::vector<Aabb> stored_sides(std::vector<Aabb> boxes, const BoxFormat& format)
 /// Returns the pairs of faces without a common corner whose boxes overlap, by testing all pairs.
 PairList overlapping(std::span<const Aabb> boxes, std::span<const Face> faces)
 {
-    std::vector<Pair> pairs;
-    for (uint a = 0; a < boxes.size(); ++a)
-        for (uint b = a + 1; b < boxes.size(); ++b)
-            if (overlap(boxes[a], boxes[b]) && !share_a_vertex(faces[a], faces[b]))
-                pairs.push_back({a, b});
-    return PairList(std::move(pairs));
+    return chosen(PairList(brute_pairs(boxes)),
+                  [&](Pair pair) { return !share_a_vertex(faces[pair.a], faces[pair.b]); });
 }
 
 /// Returns the pairs that a query over boxes of a format finds.
@@ -49,8 +46,7 @@ PairList rounded_pairs(const Mesh& mesh, const BoxFormat& format)
 
 bool contains(const PairList& all, const PairList& some)
 {
-    return std::includes(all.pairs().begin(), all.pairs().end(), some.pairs().begin(),
-                         some.pairs().end());
+    return std::ranges::includes(all.pairs(), some.pairs());
 }
 
 /// Returns meshes of few triangles, and of as many as blocks and work-groups need.

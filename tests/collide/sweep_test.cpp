@@ -10,22 +10,10 @@
 
 #include "collide/oracles/axes.h"
 #include "collide/oracles/box_pairs.h"
+#include "tests/brute_pairs.h"
 
 namespace bvhbench {
 namespace {
-
-/// Returns the overlapping pairs by testing all pairs.
-PairList brute_force(std::span<const Aabb> boxes)
-{
-    std::vector<Pair> found;
-    for (uint a = 0; a < boxes.size(); ++a)
-        for (uint b = a + 1; b < boxes.size(); ++b)
-            if (boxes[a].min_x <= boxes[b].max_x && boxes[b].min_x <= boxes[a].max_x &&
-                boxes[a].min_y <= boxes[b].max_y && boxes[b].min_y <= boxes[a].max_y &&
-                boxes[a].min_z <= boxes[b].max_z && boxes[b].min_z <= boxes[a].max_z)
-                found.push_back({a, b});
-    return PairList(std::move(found));
-}
 
 /// Returns boxes around (0, 0, 0) at small integer multiples of `x`, `y`, `z`, so that many touch or begin at the same place.
 std::vector<Aabb> lattice_boxes(std::size_t count, float x, float y, float z, unsigned seed)
@@ -74,7 +62,7 @@ TEST_P(OraclesOfPairs, AreThoseOfBruteForceWhicheverAxisIsLongest)
               lattice_boxes(200, 1, 1, 0, seed), lattice_boxes(200, 1, 0, 0, seed),
               lattice_boxes(seed, 1, 1, 1, seed)}) {
             const PairList pairs = oracle(boxes);
-            ASSERT_EQ(pairs, brute_force(boxes)) << seed;
+            ASSERT_EQ(pairs, PairList(brute_pairs(boxes))) << seed;
             ASSERT_EQ(pairs.surplus(), 0u);
         }
 }
@@ -126,11 +114,11 @@ TEST_P(OraclesOfPairs, TakeInfinitiesForNumbersAndBothZerosForOne)
                                      {-endless, -1, -1, -big, -0.0f, 0},
                                      {-big, 0.0f, -0.0f, 1, 1, 1},
                                      {-1, -1, -1, 1, 1, -0.0f}};
-    EXPECT_EQ(oracle(boxes), brute_force(boxes));
+    EXPECT_EQ(oracle(boxes), PairList(brute_pairs(boxes)));
     std::vector<Aabb> many = boxes;  // enough for CGAL to make trees of them
     while (many.size() < 1000)
         many.insert(many.end(), boxes.begin(), boxes.end());
-    EXPECT_EQ(oracle(many), brute_force(many));
+    EXPECT_EQ(oracle(many), PairList(brute_pairs(many)));
 }
 
 TEST_P(OraclesOfPairs, HaveNoneOfABoxWithANan)
@@ -152,7 +140,7 @@ TEST_P(OraclesOfPairs, OfSeveralSlabsAreThoseOfBruteForce)
     for (std::size_t k = 0; k < boxes.size(); k += 3)
         boxes[k].max_x = boxes[k].min_x + 1e-3f * static_cast<float>(random() % 100);
     const PairList pairs = oracle(boxes);
-    EXPECT_EQ(pairs, brute_force(boxes));
+    EXPECT_EQ(pairs, PairList(brute_pairs(boxes)));
     EXPECT_EQ(pairs.surplus(), 0u);
     const std::vector<Aabb> equal(9000, {0, 0, 0, 1, 0, 0});
     EXPECT_EQ(oracle(equal).size(), 9000u * 8999u / 2);

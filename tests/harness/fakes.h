@@ -5,6 +5,7 @@
 
 #include "harness/base/json_keys.h"
 #include "harness/record/record.h"
+#include "harness/session/sampler.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
@@ -20,6 +21,29 @@ inline Json fake_run()
 inline StageTime fake_stage(std::string stage, std::int64_t span_ns, std::int64_t moved_bytes)
 {
     return {std::move(stage), span_ns - 10, span_ns, 0, 2, moved_bytes};
+}
+
+/// Reports the listed times in order, then the last one for all later samples: half of each to build, and then all of it to query. Throws if
+/// there are none.
+struct ListedTimes {
+    std::vector<std::int64_t> times = {1000};
+    std::size_t next = 0;
+
+    std::vector<StageTime> operator()()
+    {
+        if (times.empty())
+            throw Unavailable("out of device memory");
+        const std::int64_t ns = times[std::min(next++, times.size() - 1)];
+        return {{"hierarchy", ns / 2, ns / 2, 0, 1, 0, 0}, {"broad", ns, ns, 0, 1, 0, ns / 2}};
+    }
+};
+
+/// Samples these, each as a cell.
+template <class... Timed>
+std::vector<CellSamples> sampled(const SamplingPlan& plan, Timed&... timed)
+{
+    int order = 0;
+    return take_samples(std::vector<CellToSample>{{"a cell", std::ref(timed)}...}, plan, order);
 }
 
 /// Returns a cell of a builder on a scene of 144,046 triangles, with hierarchy times of 90, 100 and 110 microseconds.

@@ -1,29 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/race.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "geometry/error.h"
-#include "harness/session/sampler.h"
+#include "tests/harness/fakes.h"
 
 namespace bvhbench {
 namespace {
-
-/// Reports the listed times in order, then the last one for all later samples.
-struct ListedTimes {
-    std::vector<std::int64_t> times;
-    std::size_t next = 0;
-
-    std::vector<StageTime> operator()()
-    {
-        if (times.empty())
-            throw Unavailable("out of device memory");
-        const std::int64_t ns = times[std::min(next++, times.size() - 1)];
-        return {{"hierarchy", ns / 2, ns / 2, 0, 1, 0, 0}, {"broad", ns, ns, 0, 1, 0, ns / 2}};
-    }
-};
 
 /// Samples cells with the listed times, whole times being one and a half times as long, in a race.
 std::vector<CellSamples> raced(std::vector<ListedTimes> cells, SamplingRules rules = {},
@@ -126,14 +107,12 @@ TEST(Race, ThoseThatOverlapGoOnToTheMostAllowed)
 TEST(Race, WithoutARaceNothingIsBeaten)
 {
     ListedTimes fast{{1000}}, slow{{9000}};
-    const std::vector<CellToSample> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
-    int order = 0;
-    EXPECT_EQ(take_samples(cells, {.samples = 5, .warm_up = 0}, order)[1].samples.size(), 5u);
+    EXPECT_EQ(sampled({.samples = 5, .warm_up = 0}, fast, slow)[1].samples.size(), 5u);
 }
 
 TEST(Race, OneThatFailsBeatsNobody)
 {
-    const auto taken = raced({{}, {{1000}}});
+    const auto taken = raced({{.times = {}}, {{1000}}});
     EXPECT_EQ(taken[0].stopped, Stopped::failure);
     EXPECT_EQ(taken[1].stopped, Stopped::number);
 }

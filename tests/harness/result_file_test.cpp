@@ -63,6 +63,17 @@ void leave_killed(const fs::path& path)
     file.leave();
 }
 
+/// Adds a part whose only cell failed, and leaves the file.
+void add_failed(ResultFile& file, double seconds)
+{
+    file.begin_part("0123");
+    Cell failed = fake_cell();
+    failed.status = Cell::Status::failed;
+    file.add(failed);
+    file.end_part(seconds);
+    file.leave();
+}
+
 TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
 {
     leave_killed(path_);
@@ -192,35 +203,24 @@ TEST_F(ResultFileTest, MeasuresAPartWithAFailedCellAgainIfAskedTo)
     {
         ResultFile file({path_, "--out", {}}, false, Resuming{}, "");
         file.begin(fake_run());
-        file.begin_part("0123");
-        Cell failed = fake_cell();
-        failed.status = Cell::Status::failed;
-        file.add(failed);
-        file.end_part(1);
-        file.leave();
+        add_failed(file, 1);
     }
     EXPECT_TRUE(
         ResultFile(resumed(path_), false, Resuming{.is_asked = true}, "").take_part("0123"));
+    const Resuming retrying{.is_asked = true, .retries_failed = true};
     const fs::path good = folder_ / "good.json";
     leave_killed(good);
-    ResultFile file(resumed(good), false, Resuming{.is_asked = true, .retries_failed = true}, "");
+    ResultFile file(resumed(good), false, retrying, "");
     EXPECT_EQ(file.take_part("0123"), 1.5) << "it was measured";
     Json run = fake_run();
     run["id"] = "later";
     {
-        ResultFile again(resumed(path_), false, Resuming{.is_asked = true, .retries_failed = true},
-                         "");
+        ResultFile again(resumed(path_), false, retrying, "");
         EXPECT_FALSE(again.take_part("0123"));
         again.begin(run);
-        again.begin_part("0123");
-        Cell failed = fake_cell();
-        failed.status = Cell::Status::failed;
-        again.add(failed);
-        again.end_part(2);
-        again.leave();
+        add_failed(again, 2);
     }
-    ResultFile next(resumed(path_), false, Resuming{.is_asked = true, .retries_failed = true},
-                    "later");
+    ResultFile next(resumed(path_), false, retrying, "later");
     EXPECT_EQ(next.take_part("0123"), 2) << "this run has tried it";
 }
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/sampler.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <set>
 
-#include "geometry/error.h"
+#include "tests/harness/fakes.h"
 
 namespace bvhbench {
 namespace {
@@ -22,18 +19,6 @@ struct FakeBuild {
             throw Unavailable("out of device memory");
         ++builds;
         return {{"hierarchy", builds, builds, 0, 1, 0}};
-    }
-};
-
-/// Reports the listed times in order, then the last one for all later samples.
-struct ListedTimes {
-    std::vector<std::int64_t> times = {1000};
-    std::size_t next = 0;
-
-    std::vector<StageTime> operator()()
-    {
-        const std::int64_t ns = times[std::min(next++, times.size() - 1)];
-        return {{"hierarchy", ns, ns, 0, 1, 0}};
     }
 };
 
@@ -66,15 +51,13 @@ std::vector<std::int64_t> spread_by(std::int64_t spread, int count)
 TEST(Sampler, KeepsEverySampleAfterTheWarmUpInOrder)
 {
     FakeBuild build;
-    int order = 0;
-    const auto all = take_samples(std::vector<CellToSample>{{"fake", std::ref(build)}},
-                                  {.samples = 5, .warm_up = 2}, order);
+    const auto all = sampled({.samples = 5, .warm_up = 2}, build);
     std::vector<std::int64_t> times;
     for (const Sample& sample : all[0].samples)
         times.push_back(sample.stages.at(0).span_ns);
     EXPECT_EQ(times, (std::vector<std::int64_t>{3, 4, 5, 6, 7}));
     EXPECT_EQ(build.builds, 7);
-    EXPECT_EQ(order, 7);
+    EXPECT_EQ(all[0].samples.back().order, 6);
 }
 
 TEST(Sampler, InterleavesCellsAndNumbersTheSamplesOfTheWholeRun)
@@ -101,13 +84,10 @@ TEST(Sampler, GoesOnWithTheOthersWhenOneFailsAndPrintsNothing)
 {
     FakeBuild good, bad;
     bad.fails_at = 2;
-    const std::vector<CellToSample> cells = {{"bad", std::ref(bad)}, {"good", std::ref(good)}};
-    int order = 0;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    const std::vector<CellSamples> taken =
-        take_samples(cells, {.samples = 10, .warm_up = 0}, order);
-    EXPECT_TRUE(take_samples({}, {.samples = 5, .warm_up = 0}, order).empty());
+    const std::vector<CellSamples> taken = sampled({.samples = 10, .warm_up = 0}, bad, good);
+    EXPECT_TRUE(sampled({.samples = 5, .warm_up = 0}).empty());
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(taken[0].failure, "out of device memory");
@@ -118,13 +98,8 @@ TEST(Sampler, GoesOnWithTheOthersWhenOneFailsAndPrintsNothing)
 
 TEST(Sampler, TakesEveryCellOnceInEachRound)
 {
-    FakeBuild builds[3];
-    std::vector<CellToSample> cells;
-    for (FakeBuild& build : builds)
-        cells.push_back({"fake", std::ref(build)});
-    int order = 0;
-    const std::vector<CellSamples> taken =
-        take_samples(cells, {.samples = 40, .warm_up = 0}, order);
+    FakeBuild first, second, third;
+    const auto taken = sampled({.samples = 40, .warm_up = 0}, first, second, third);
     std::set<int> places;  // of the first cell in each round
     for (int round = 0; round < 40; ++round)
         for (const CellSamples& cell : taken) {
@@ -253,10 +228,7 @@ struct BadClocked {
 TEST(Sampler, DropsAFewSamplesWithImpossibleTimes)
 {
     BadClocked seldom{20}, often{5};
-    int order = 0;
-    const std::vector<CellToSample> cells = {{"seldom", std::ref(seldom)},
-                                             {"often", std::ref(often)}};
-    const std::vector<CellSamples> all = take_samples(cells, {.samples = 50, .warm_up = 1}, order);
+    const std::vector<CellSamples> all = sampled({.samples = 50, .warm_up = 1}, seldom, often);
     EXPECT_EQ(all[0].samples.size(), 50u);
     EXPECT_EQ(all[0].dropped, 2);
     EXPECT_EQ(all[0].stopped, Stopped::number);

@@ -2,11 +2,10 @@
 //
 // The kernels equal the reference bit for bit, for any size, form of kernels and location of the leaves.
 
-#include "baselines/baselines.h"
 #include "builders/parameters.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
-#include "tests/builders/stage_testing.h"
+#include "tests/baselines/testing.h"
 
 namespace bvhbench {
 namespace {
@@ -58,11 +57,7 @@ void expect_all_equal(std::vector<std::unique_ptr<Builder>>& builders, uint tria
 {
     const Mesh mesh = random_mesh(triangles, std::identity{}, seed);
     const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
-    const auto reference = make_oibvh_reference(bench().programs, {});
-    reference->reserve(triangles);
-    const HostTree expected = reference->build(input, bench().queue).to_host_tree();
-    ASSERT_EQ(invariant_violation(expected, mesh.points, mesh.faces), "");
-
+    const HostTree expected = tree_over(make_oibvh_reference, mesh);
     for (std::size_t i = 0; i < builders.size(); ++i) {
         SCOPED_TRACE(std::to_string(triangles) + " triangles, way " + std::to_string(i));
         if (reserves)

@@ -7,7 +7,7 @@
 #include "oibvh/oibvh.h"
 #include "oibvh/wide/layout.h"
 #include "oibvh/wide/tree.h"
-#include "tests/builders/stage_testing.h"
+#include "tests/baselines/testing.h"
 
 namespace bvhbench {
 namespace {
@@ -98,9 +98,7 @@ protected:
                      (options.sorted_leaves ? ", sorted" : ""));
         const Mesh mesh = random_mesh(triangles, scaled(size));
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
-        const auto reference = make_oibvh_reference(bench().programs, {});
-        reference->reserve(triangles);
-        const HostTree expected = reference->build(input, bench().queue).to_host_tree();
+        const HostTree expected = tree_over(make_oibvh_reference, mesh);
         const auto builder = GetParam().make(bench().programs, options);
         builder->reserve(triangles);
         ASSERT_EQ(builder->footprint(triangles), builder->reserved());
