@@ -27,6 +27,21 @@ class Remake(unittest.TestCase):
     def setUp(self) -> None:
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
 
+    def maker(self) -> tuple[dict, object]:
+        """Returns the names of the script, and its maker of quick files into the test's folder."""
+        script = runpy.run_path(str(SCRIPT))
+        maker = script["Maker"](argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True))
+        maker.ask()
+        return script, maker
+
+    def build(self, name: str, builder: str, samples: str) -> None:
+        """Builds a tree, and leaves its packed file in the test's folder."""
+        file = self.folder / f"{name}.json"
+        subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", builder, "--samples", samples, "--device", "cpu", "--json",
+                        file], check=True, capture_output=True)
+        (self.folder / f"{name}.json.xz").write_bytes(lzma.compress(file.read_bytes()))
+        file.unlink()
+
     def quick(self, *words: str) -> subprocess.CompletedProcess:
         return remake("--program", PROGRAM, "--device", "cpu", "--quick", "--out", str(self.folder), *words)
 
@@ -71,46 +86,29 @@ class Remake(unittest.TestCase):
         self.assertEqual(self.quick("--only", "accuracy-sums").stdout, "accuracy-sums: left out, its command has no --quick\n")
 
     def test_makes_files_of_scale(self) -> None:
-        script = runpy.run_path(str(SCRIPT))
-        maker = script["Maker"](argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True))
-        maker.ask()
+        script, maker = self.maker()
         self.assertTrue(maker.make(script["Unit"]("scaled", 1, "scale strong --scene torus:64 --ranks 1 --samples 1", piece="scaled")))
         self.assertTrue(maker.is_there("scaled"))
 
     def test_merges_what_several_commands_made(self) -> None:
-        words = argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True)
-        script = runpy.run_path(str(SCRIPT))
-        maker = script["Maker"](words)
-        maker.ask()
+        script, maker = self.maker()
         pieces = {"both.1": "oibvh-single", "both.2": "karras"}
         both = [script["Unit"]("both", 1, "build", piece=name) for name in pieces]
         for name, builder in pieces.items():
             self.assertTrue(maker.merge("both", both))  # not all is there
-            file = self.folder / f"{name}.json"
-            subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", builder, "--samples", "1", "--device", "cpu", "--json",
-                            file],
-                           check=True, capture_output=True)
-            (self.folder / f"{name}.json.xz").write_bytes(lzma.compress(file.read_bytes()))
-            file.unlink()
+            self.build(name, builder, "1")
         self.assertTrue(maker.merge("both", both))
         self.assertEqual([path.name for path in self.folder.iterdir()], ["both.json.xz"])
         document = json.loads(lzma.decompress((self.folder / "both.json.xz").read_bytes()))
         self.assertEqual([cell["builder"]["name"] for cell in document["cells"]], list(pieces.values()))
 
     def test_joins_what_several_processes_made(self) -> None:
-        words = argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True)
-        script = runpy.run_path(str(SCRIPT))
+        script, maker = self.maker()
         headlines = [unit for unit in script["units"]("h200") if unit.file == "headlines"]
         pieces = [unit.piece for unit in headlines]
         self.assertEqual(pieces, ["headlines.1", "headlines.2", "headlines.3"])
-        maker = script["Maker"](words)
-        maker.ask()
         for name in pieces:
-            file = self.folder / f"{name}.json"
-            subprocess.run([PROGRAM, "build", "--scene", "torus:64", "--builder", "oibvh-single", "--samples", "2", "--device", "cpu",
-                            "--json", file], check=True, capture_output=True)
-            (self.folder / f"{name}.json.xz").write_bytes(lzma.compress(file.read_bytes()))
-            file.unlink()
+            self.build(name, "oibvh-single", "2")
         self.assertTrue(maker.merge("headlines", headlines))
         cell, = json.loads(lzma.decompress((self.folder / "headlines.json.xz").read_bytes()))["cells"]
         self.assertEqual([sample["process"] for sample in cell["samples"]], [0, 0, 1, 1, 2, 2])

@@ -1,4 +1,5 @@
 """Tests that tables fit a terminal and have colours there, and are whole and plain elsewhere."""
+import contextlib
 import os
 import pty
 import re
@@ -15,6 +16,19 @@ from plots.words.tables import Table
 CODES = re.compile("\x1b\\[[0-9;]*m")
 
 
+def on_a_terminal(words: list[object], **environment: str) -> str:
+    """Returns what a command that succeeds writes to a terminal."""
+    own, child = pty.openpty()
+    with subprocess.Popen(words, stdout=child, env={**os.environ, **environment}) as process, os.fdopen(own, "rb", buffering=0) as reader:
+        os.close(child)
+        shown = b""
+        with contextlib.suppress(OSError):  # the terminal's other end is closed
+            while part := reader.read(4096):
+                shown += part
+    assert process.returncode == 0, shown
+    return shown.decode().replace("\r\n", "\n")
+
+
 class Letters(InFolder):
     def test_that_a_terminal_obeys_are_spelled_out(self) -> None:
         self.assertEqual(output.printable("a\tb\n\x1b[31m\x9b31m\x85\u202ec\u2066d\udc9b\udce4 äß"),
@@ -25,16 +39,7 @@ class Letters(InFolder):
         words = [sys.executable, ROOT / "plots", "export", path, "--format", "csv"]
         subprocess.run([*words, "--out", out], check=True, capture_output=True)
         self.assertIn("a\x9bb\u202ec\x1b]0;d", out.read_text(encoding="utf-8"))
-        own, child = pty.openpty()
-        with subprocess.Popen(words, stdout=child), os.fdopen(own, "rb") as terminal_of:
-            os.close(child)
-            shown = b""
-            try:
-                while part := terminal_of.read1():
-                    shown += part
-            except OSError:
-                pass  # the other end is closed
-        self.assertIn("a\\x9bb\\u202ec\\x1b]0;d", shown.decode())
+        self.assertIn("a\\x9bb\\u202ec\\x1b]0;d", on_a_terminal(words))
 
 
 class Tables(unittest.TestCase):
@@ -106,19 +111,8 @@ class Show(InFolder):
         """Returns what `show` writes to a terminal."""
         builders = ("oibvh-multi", "oibvh-single", "karras")
         file = self.written(document(*(cell(builder, 100_000 * (place + 1)) for place, builder in enumerate(builders))))
-        own, child = pty.openpty()
-        with os.fdopen(own, "rb", buffering=0) as reader:
-            process = subprocess.Popen([sys.executable, ROOT / "plots", "show", file, *words], stdout=child,
-                                       env={**os.environ, "TERM": "xterm", "COLUMNS": columns, "NO_COLOR": "", **environment})
-            os.close(child)
-            parts = []
-            try:
-                while part := reader.read(4096):
-                    parts.append(part)
-            except OSError:
-                pass  # the terminal's other end is closed
-        self.assertEqual(process.wait(), 0)
-        return b"".join(parts).decode().replace("\r\n", "\n")
+        return on_a_terminal([sys.executable, ROOT / "plots", "show", file, *words],
+                             **{"TERM": "xterm", "COLUMNS": columns, "NO_COLOR": "", **environment})
 
     def piped(self, **environment: str) -> str:
         return subprocess.run([sys.executable, ROOT / "plots", "show", self.folder / "table1.json"], capture_output=True, text=True,

@@ -40,6 +40,13 @@ inline std::string refusal(std::string_view text, const SceneLibrary& library = 
     return "loaded";
 }
 
+/// Whether loading `text` is refused in a message with these words.
+inline testing::AssertionResult refuses(std::string_view text, const std::string& words,
+                                        const SceneLibrary& library = {})
+{
+    return contains(refusal(text, library), words) << " of " << text;
+}
+
 /// A library that keeps what loading tells.
 struct Listening : SceneLibrary {
     std::string told;
