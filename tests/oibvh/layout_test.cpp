@@ -3,10 +3,9 @@
 // Both layouts, binary and of any arity, compared with the literal construction and with 64-bit arithmetic.
 #include "oibvh/layout.h"
 
-#include <gtest/gtest.h>
-
 #include "oibvh/layout_check.h"
 #include "oibvh/layout_probe.h"
+#include "tests/case_name.h"
 #include "tests/oibvh/literal_tree.h"
 
 namespace bvhbench {
