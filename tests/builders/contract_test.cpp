@@ -145,11 +145,10 @@ TEST(ImplicitBuilders, LineUpLeavesInTheirFirstLaunchUnlessTheyRoundThem)
                 EXPECT_FALSE(refused);
                 Builder& builder = session().builder(choice);
                 builder.reserve(mesh.faces.size());
-                bool gathers = false;
-                for (const StageTime& stage :
-                     session().build_once(builder, input, Start::from_triangles))
-                    gathers |= stage.stage == "gather";
-                EXPECT_EQ(gathers, rounds);
+                EXPECT_EQ(
+                    std::ranges::count(session().build_once(builder, input, Start::from_triangles),
+                                       "gather", &StageTime::stage) > 0,
+                    rounds);
             }
 }
 

@@ -10,8 +10,7 @@
 #include "harness/choice/catalog.h"
 #include "harness/judge/hard_inputs.h"
 #include "harness/measure/cluster.h"
-#include "scenes/catalog.h"
-#include "tests/builders/stage_testing.h"
+#include "tests/baselines/testing.h"
 #include "tests/cluster/rank_tests.h"
 #include "tests/folder.h"
 
@@ -128,18 +127,12 @@ protected:
         EXPECT_TRUE(pairs == expected.pairs) << name;
         EXPECT_TRUE(contacts == expected.contacts) << name;
     }
-
-    static Mesh scene(const std::string& name)
-    {
-        const Scene loaded = load_scene(name, {});
-        return {loaded.frames.front(), loaded.faces};
-    }
 };
 
 TEST_F(Frames, OfScenesHaveThePairsOfTheOracle)
 {
     for (const char* name : {"torus:4000", "soup:3000", "grid:512", "hairball:1000", "n-body:3050"})
-        hold_to_oracle(scene(name), name);
+        hold_to_oracle(mesh_of(name), name);
 }
 
 TEST_F(Frames, OfRealMeshesHaveThePairsOfTheOracle)
@@ -163,7 +156,7 @@ TEST_F(Frames, OfFewTrianglesLeaveRanksEmpty)
     const HardInput& input = hard_inputs().front();
     for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 9u})
         hold_to_oracle(input.make(count), std::to_string(count) + " triangles");
-    const Mesh closed = scene("sphere:6");  // neighbours share vertices
+    const Mesh closed = mesh_of("sphere:6");  // neighbours share vertices
     for (uint count = 1; count <= closed.faces.size(); ++count)
         hold_to_oracle({closed.points, {closed.faces.begin(), closed.faces.begin() + count}},
                        std::to_string(count) + " neighbours");
@@ -171,7 +164,7 @@ TEST_F(Frames, OfFewTrianglesLeaveRanksEmpty)
 
 TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
 {
-    Mesh mesh = scene("sphere:1000");
+    Mesh mesh = mesh_of("sphere:1000");
     const auto points = static_cast<uint>(mesh.points.size());
     const std::size_t faces = mesh.faces.size();
     for (uint k = 0; k < points; ++k)

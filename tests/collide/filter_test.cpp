@@ -99,9 +99,7 @@ PairList chosen_by_hand(const PairList& pairs, const ManyObjects& many, const Ob
     });
 }
 
-using FilterCase = std::tuple<Named, Named, KernelForm>;
-
-class FilterTest : public testing::TestWithParam<FilterCase> {};
+class FilterTest : public testing::TestWithParam<ObjectsCase> {};
 
 TEST_P(FilterTest, LeavesOutWhatItShouldAndNothingElse)
 {
@@ -139,17 +137,11 @@ TEST_P(FilterTest, TestsOnlyObjectsIfAllAreLeftOut)
     EXPECT_LT(10 * tests(all_excluded(30)), tests({}));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Trees, FilterTest,
-    testing::Values(FilterCase{{"leaf"}, {"oibvh-multi"}, KernelForm::groups},
-                    FilterCase{{"leaf"}, {"karras"}, KernelForm::chunks},
-                    FilterCase{{"group"}, {"oibvh-wide8"}, KernelForm::groups},
-                    FilterCase{{"group"}, {"oibvh-multi"}, KernelForm::chunks},
-                    FilterCase{{"block"}, {"hploc"}, KernelForm::groups},
-                    FilterCase{{"block"}, {"oibvh-single"}, KernelForm::groups},
-                    FilterCase{{"bvtt"}, {"oibvh-multi"}, KernelForm::groups},
-                    FilterCase{{"bvtt"}, {"apetrei-fused"}, KernelForm::chunks}),
-    CaseName());
+INSTANTIATE_TEST_SUITE_P(Trees, FilterTest, testing::ValuesIn(cases_of_objects()), CaseName());
+INSTANTIATE_TEST_SUITE_P(OfOneGroup, FilterTest,
+                         testing::Values(ObjectsCase{
+                             {"block"}, {"oibvh-single"}, KernelForm::groups}),
+                         CaseName());
 
 TEST(Filter, OfTheOracleIsTheSame)
 {

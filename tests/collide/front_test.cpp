@@ -167,10 +167,8 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
         for (int repeat = 0; repeat < 3; ++repeat)
             for (Pipeline* one : {&walking, &tracking}) {
                 const std::vector<StageTime> stages = one->once(input);
-                const bool refits =
-                    std::any_of(stages.begin(), stages.end(),
-                                [](const StageTime& stage) { return stage.stage == "refit"; });
-                EXPECT_EQ(refits, one == &tracking && frame > 0);
+                EXPECT_EQ(std::ranges::count(stages, "refit", &StageTime::stage) > 0,
+                          one == &tracking && frame > 0);
                 EXPECT_EQ(PairList(one->pairs()), touching_pairs(points, moving.mesh.faces, true));
             }
     }

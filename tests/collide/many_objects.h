@@ -42,6 +42,21 @@ struct ManyObjects {
     }
 };
 
+/// A collider, a builder for it and how its kernels run.
+using ObjectsCase = std::tuple<Named, Named, KernelForm>;
+
+/// Returns a case of each kind of tree and of walk that tests objects first.
+inline std::vector<ObjectsCase> cases_of_objects()
+{
+    return {{{"leaf"}, {"oibvh-multi"}, KernelForm::groups},
+            {{"leaf"}, {"karras"}, KernelForm::chunks},
+            {{"group"}, {"oibvh-wide8"}, KernelForm::groups},
+            {{"group"}, {"oibvh-multi"}, KernelForm::chunks},
+            {{"block"}, {"hploc"}, KernelForm::groups},
+            {{"bvtt"}, {"oibvh-multi"}, KernelForm::groups},
+            {{"bvtt"}, {"apetrei-fused"}, KernelForm::chunks}};
+}
+
 inline PairList expected_pairs(const ManyObjects& many, Among among, bool keep_adjacent)
 {
     return touching_pairs(many.mesh.points, many.mesh.faces, keep_adjacent, many.objects, among);

@@ -20,8 +20,7 @@ ColliderChoice between(const char* name, unsigned rules_off = 0)
 
 bool has_stage(const std::vector<StageTime>& stages, std::string_view name)
 {
-    return std::any_of(stages.begin(), stages.end(),
-                       [&](const StageTime& stage) { return stage.stage == name; });
+    return std::ranges::count(stages, name, &StageTime::stage) > 0;
 }
 
 struct NearPipeline : testing::TestWithParam<BuilderChoice> {};

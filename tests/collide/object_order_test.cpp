@@ -31,9 +31,7 @@ ManyObjects crowd(std::size_t side)
     return many;
 }
 
-using OrderCase = std::tuple<Named, Named, KernelForm>;
-
-class ObjectOrderTest : public testing::TestWithParam<OrderCase> {
+class ObjectOrderTest : public testing::TestWithParam<ObjectsCase> {
 protected:
     std::unique_ptr<Collider> collider(Among among, unsigned rules_off = 0) const
     {
@@ -101,16 +99,7 @@ TEST_P(ObjectOrderTest, LosesNoPairInOtherFormats)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Trees, ObjectOrderTest,
-                         testing::Values(OrderCase{{"leaf"}, {"oibvh-multi"}, KernelForm::groups},
-                                         OrderCase{{"leaf"}, {"karras"}, KernelForm::chunks},
-                                         OrderCase{{"group"}, {"oibvh-wide8"}, KernelForm::groups},
-                                         OrderCase{{"group"}, {"oibvh-multi"}, KernelForm::chunks},
-                                         OrderCase{{"block"}, {"hploc"}, KernelForm::groups},
-                                         OrderCase{{"bvtt"}, {"oibvh-multi"}, KernelForm::groups},
-                                         OrderCase{
-                                             {"bvtt"}, {"apetrei-fused"}, KernelForm::chunks}),
-                         CaseName());
+INSTANTIATE_TEST_SUITE_P(Trees, ObjectOrderTest, testing::ValuesIn(cases_of_objects()), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

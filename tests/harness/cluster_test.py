@@ -4,6 +4,7 @@
 
 CLUSTER_KILLS says how often ranks are killed; 3 if not set.
 """
+import contextlib
 import json
 import os
 import pathlib
@@ -34,13 +35,10 @@ def result(path: str) -> dict:
 def processes_of(mark: str) -> list[tuple[int, str]]:
     """Returns the processes whose environment has the mark: their numbers and ranks."""
     found = []
-    for entry in pathlib.Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        try:
+    for entry in pathlib.Path("/proc").glob("[0-9]*"):
+        words = []
+        with contextlib.suppress(OSError):  # it has ended, or is another user's
             words = (entry / "environ").read_bytes().split(b"\0")
-        except OSError:  # it has ended, or is another user's
-            continue
         if mark.encode() in words:
             rank = next((word.split(b"=")[1] for word in words if word.startswith(b"OMPI_COMM_WORLD_RANK=")), b"")
             found.append((int(entry.name), rank.decode()))
@@ -248,9 +246,7 @@ def test_experiments_write_one_file():
 def test_scale_goes_on_where_it_was_interrupted():
     words = ("scale", "halo", "--scene", "torus:20000", "--ranks", "2,3,4", "--partition", "rcb", "--samples", "2", "--out", "on.json")
     with at_work(*words) as process:
-        for line in process.stdout:
-            if line.startswith("[2/6]"):
-                break
+        next(line for line in process.stdout if line.startswith("[2/6]"))
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 130

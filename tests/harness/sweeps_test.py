@@ -94,9 +94,7 @@ def test_an_interrupt_ends_it_and_keeps_what_is_done():
     # Two cells that take a moment, and two over a simulation of minutes.
     words = ("--scenes", "soup:70,cloth-dress:20000:60", "--builders", "perfect,karras", "--samples", "2")
     with at_work("sweep", *words, "--out", "stopped") as process:
-        for line in process.stdout:
-            if line.startswith("[2/4]"):
-                break
+        next(line for line in process.stdout if line.startswith("[2/4]"))
         os.killpg(process.pid, signal.SIGINT)  # like a terminal, which also signals the cell's process
         output, errors = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 130 and errors == KEPT, (process.returncode, errors)
@@ -147,10 +145,8 @@ def test_a_device_that_goes_away_ends_it_with_what_is_done():
     words = ("sweep", "--scenes", "soup:70,torus:500,soup:71", "--builders", "perfect,karras,apetrei,median-split", "--samples", "1", "--out",
              "gone")
     with at_work(*words, OCL_ICD_VENDORS=str(vendors)) as process:
-        for line in process.stdout:
-            if line.startswith("[1/12]"):
-                shutil.rmtree(vendors)
-                break
+        next(line for line in process.stdout if line.startswith("[1/12]"))
+        shutil.rmtree(vendors)
         _, errors = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 3 and re.match("bvhbench: there is no OpenCL device: ", errors), errors
     assert statuses("gone/sweep.json").keys() == {"measured"}
