@@ -44,7 +44,7 @@ struct Candidates {
 /// Tests of one class of pairs each.
 class OfAClass : public Needing<testing::TestWithParam<PairClass>, cgal_absent> {};
 
-using ClassName = CaseName;
+inline constexpr CaseName form_test_name;
 
 inline const auto all_classes = testing::ValuesIn(pair_classes().begin(), pair_classes().end());
 

@@ -104,6 +104,7 @@ TEST(Contraction, IsOffOnTheHost)
 }
 
 constexpr auto kernel_text = R"(
+#include "geometry/orient.h"
 
 kernel void surfaces(global const float* restrict in, global float* restrict out)
 {
