@@ -53,7 +53,7 @@ def best(points, faces, device: str | int = "", *, goal: str = "frame", **option
         if not answer.exists():
             raise Error(done.stderr.strip().rpartition("\n")[2].removeprefix("bvhbench: "))
         found = ranking.ranked(results.everything(answer).all_cells, goal)
-    rows = [{"builder": row.first.builder, "order": row.first.options.get("order"), "collider": row.first.collider, "ns": row.ns,
+    rows = [{"builder": row.first.builder, "order": dict(row.first.options).get("order"), "collider": row.first.collider, "ns": row.ns,
              "ratio": row.ratio, "tied": row.tied, "bytes": row.bytes, "sah": row.sah, "right": row.is_right} for row in found.rows]
     table = pandas.DataFrame(rows)
     table.attrs["sentence"] = ranking_text.sentence(found) if found.rows else ""
