@@ -7,22 +7,21 @@
 
 namespace bvhbench {
 
-/// A builder of implicit trees, an order of leaves and a collider, by name.
+/// A builder of implicit trees and a collider, by name.
 struct BestPipeline {
-    std::string_view builder, order, collider;
+    std::string_view builder, collider;
 };
 
-/// Returns what the library and the commands take where nothing is named: the fastest in the measurements of docs/collisions.md, with
-/// sorted leaves. `oibvh-single` takes 0.8 of the time of `oibvh-multi` on an H200, where groups hand over work within a launch.
-/// `group` has eight boxes at a time on CPUs, `block` 32 a warp on NVIDIA GPUs. Other devices were not measured; they get `leaf`, in which
-/// each leaf traverses the tree by itself, because it needs neither warps nor much local memory.
+/// Returns what the library takes where its caller names nothing: the fastest in the measurements of docs/collisions.md. `oibvh-single`
+/// takes 0.8 of the time of `oibvh-multi` on an H200, where groups hand over work within a launch. `group` has eight boxes at a time on
+/// CPUs, `block` 32 a warp on NVIDIA GPUs. Other devices were not measured; they get `leaf`, in which each leaf traverses the tree by
+/// itself, because it needs neither warps nor much local memory.
 inline BestPipeline best_pipeline(const Device& device)
 {
     const bool hands_over = device.lets_groups_meet() && !device.is_cpu();
-    return {hands_over ? "oibvh-single" : "oibvh-multi", "hilbert30",
-            device.is_cpu()             ? "group"
-            : device.lets_groups_wait() ? "block"
-                                        : "leaf"};
+    return {hands_over ? "oibvh-single" : "oibvh-multi", device.is_cpu()             ? "group"
+                                                         : device.lets_groups_wait() ? "block"
+                                                                                     : "leaf"};
 }
 
 }  // namespace bvhbench

@@ -65,9 +65,10 @@ struct Scene::Impl {
     struct Object {
         std::uint32_t first_point, points, first_face, faces;
         float most;  ///< absolute value of a coordinate of the points that it was given
+        Pose pose = {};
     };
 
-    const Object& object(std::uint32_t number) const
+    Object& object(std::uint32_t number)
     {
         if (number >= objects.size())
             throw BadUsage("there is no object " + std::to_string(number) + ", and there are " +
@@ -75,20 +76,34 @@ struct Scene::Impl {
         return objects[number];
     }
 
-    void mark(std::uint32_t number, Update as)
+    /// Begins a call that enqueues, as Tree::Impl::begin.
+    void begin()
     {
-        if (!updates.empty() && updates[number] != Update::rebuild)
-            updates[number] = as;
+        device->queue.forget();
+        device->queue.join();
     }
 
-    void place(const Object& of, const Pose& pose);
+    /// Runs `change`, which changes an object on the device, if the scene is there. If it throws, the next `tree` copies all anew.
+    template <class Change>
+    void renew(std::uint32_t number, Update as, Change&& change)
+    {
+        if (updates.empty())
+            return;
+        std::vector<Update> since = std::exchange(updates, {});  // restored on success
+        begin();
+        change();
+        if (since[number] != Update::rebuild)
+            since[number] = as;
+        updates = std::move(since);
+    }
+
+    void place(const Object& of);
     void upload();
 
     std::shared_ptr<Device::Impl> device;  ///< declared first, so that it is destroyed last
     std::vector<Object> objects;
-    std::vector<Point> given;  ///< of all objects, as they were added or moved
-    std::vector<Face> faces;   ///< of all objects, with the numbers of the points of all
-    std::vector<Pose> poses;
+    std::vector<Point> given;     ///< of all objects, as they were added or moved
+    std::vector<Face> faces;      ///< of all objects, with the numbers of the points of all
     std::vector<Update> updates;  ///< since the last `tree`; empty before the first and after `add`
     std::optional<Arena> arena;
     Buffer<bvhbench::Point> device_given, device_points;
@@ -98,12 +113,12 @@ struct Scene::Impl {
 };
 
 /// Enqueues the points of an object in its pose.
-void Scene::Impl::place(const Object& of, const Pose& pose)
+void Scene::Impl::place(const Object& of)
 {
     if (place_kernel() == nullptr)
         place_kernel = device->programs.kernel("library/place.cl", "place_points");
     set_arguments(place_kernel, device_given, device_points, of.first_point, of.points,
-                  row_of(pose.x), row_of(pose.y), row_of(pose.z));
+                  row_of(of.pose.x), row_of(of.pose.y), row_of(of.pose.z));
     device->queue.begin("input");
     device->launch(place_kernel, of.points);
 }
@@ -114,6 +129,7 @@ void Scene::Impl::upload()
     static_assert(sizeof(Point) == sizeof(bvhbench::Point) &&
                   sizeof(Face) == sizeof(bvhbench::Face));
     require_count(faces.size(), "triangles");
+    begin();
     const cl::CommandQueue& queue = device->queue.cl();
     arena.reset();  // freed before more is taken
     device_given = device_points = {};
@@ -129,8 +145,8 @@ void Scene::Impl::upload()
     plan(*arena);
     queue.enqueueWriteBuffer(device_given.cl(), CL_TRUE, 0, device_given.bytes(), given.data());
     queue.enqueueWriteBuffer(device_faces.cl(), CL_TRUE, 0, device_faces.bytes(), faces.data());
-    for (std::size_t k = 0; k < objects.size(); ++k)
-        place(objects[k], poses[k]);
+    for (const Object& object : objects)
+        place(object);
 }
 
 Scene::Scene(Device device, Options options)
@@ -171,7 +187,6 @@ std::uint32_t Scene::add(const HostTriangles& object)
         own.given.insert(own.given.end(), object.points.begin(), object.points.end());
         for (const Face face : object.faces)
             own.faces.push_back({face.a + shift, face.b + shift, face.c + shift});
-        own.poses.emplace_back();
         own.updates.clear();
         return static_cast<std::uint32_t>(own.objects.size() - 1);
     });
@@ -180,35 +195,32 @@ std::uint32_t Scene::add(const HostTriangles& object)
 void Scene::place(std::uint32_t object, const Pose& pose)
 {
     as_call(*impl_->device, [&, &own = *impl_] {
-        const Impl::Object& of = own.object(object);
+        Impl::Object& of = own.object(object);
         check_pose(pose, of.most);
-        own.poses[object] = pose;
-        own.mark(object, Update::refit);
-        if (!own.updates.empty())
-            own.place(of, pose);
+        of.pose = pose;
+        own.renew(object, Update::refit, [&] { own.place(of); });
     });
 }
 
 void Scene::move(std::uint32_t object, std::span<const Point> points)
 {
     as_call(*impl_->device, [&, &own = *impl_] {
-        Impl::Object of = own.object(object);
+        Impl::Object& of = own.object(object);
         if (points.size() != of.points)
             throw BadUsage("object " + std::to_string(object) + " has " +
                            std::to_string(of.points) + " points, and " +
                            std::to_string(points.size()) + " are given");
         check_points(points);
-        of.most = largest(points);
-        check_pose(own.poses[object], of.most);
-        own.objects[object] = of;
+        const float most = largest(points);
+        check_pose(of.pose, most);
+        of.most = most;
         std::ranges::copy(points, own.given.begin() + of.first_point);
-        own.mark(object, Update::rebuild);
-        if (own.updates.empty())
-            return;
-        own.device->queue.cl().enqueueWriteBuffer(own.device_given.cl(), CL_TRUE,
-                                                  of.first_point * sizeof(Point),
-                                                  points.size_bytes(), points.data());
-        own.place(of, own.poses[object]);
+        own.renew(object, Update::rebuild, [&] {
+            own.device->queue.cl().enqueueWriteBuffer(own.device_given.cl(), CL_TRUE,
+                                                      of.first_point * sizeof(Point),
+                                                      points.size_bytes(), points.data());
+            own.place(of);
+        });
     });
 }
 

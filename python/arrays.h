@@ -5,9 +5,8 @@
 
 #include <pybind11/numpy.h>
 
+#include <cstdint>
 #include <span>
-
-#include "python/open_device.h"
 
 namespace bvhbench::python {
 
@@ -24,9 +23,6 @@ std::span<const T> values_of(const Array& array)
     return {reinterpret_cast<const T*>(array.data()),
             static_cast<std::size_t>(array.nbytes()) / sizeof(T)};
 }
-
-/// Copies the pairs of a query from the device into a new array of a row each. Takes and holds the GIL but for the copy.
-Numbers array_of(const OpenDevice& on, const oibvh::Pairs& found);
 
 /// Runs `work` without the GIL, so that other threads of Python go on.
 template <class Work>

@@ -36,35 +36,35 @@ oibvh::Input BoundTree::input(const Floats& points, const Numbers& faces)
     if (!on_->shares_host_memory || corners.empty() || triangles.empty())
         return oibvh::HostTriangles{corners, triangles};
     points_buffer_ = over(*on_, points);
-    if (faces_buffer_() == nullptr || !faces.is(faces_))
-        faces_buffer_ = over(*on_, faces);
+    faces_buffer_ = over(*on_, faces);
     return oibvh::DeviceTriangles{points_buffer_(), corners.size(), faces_buffer_(),
                                   triangles.size()};
 }
 
-/// Runs `work` on the arrays, and holds these from then on. Those held before are dropped with the GIL, by the caller.
-void BoundTree::take(Floats points, Numbers faces,
+/// Runs `work` on the arrays, and holds these from then on; without `faces`, the faces that it holds. Arrays that were held before leave
+/// in the arguments, to be dropped with the GIL.
+void BoundTree::take(Floats points, Numbers* faces,
                      const std::function<void(const oibvh::Input&)>& work)
 {
     without_gil([&] {
         const std::scoped_lock lock(mutex_);
         const Finishing finishing{*on_};
-        work(input(points, faces));
+        work(input(points, faces != nullptr ? *faces : faces_));
         std::swap(points_, points);
-        std::swap(faces_, faces);
+        if (faces != nullptr)
+            std::swap(faces_, *faces);
     });
 }
 
 void BoundTree::build(Floats points, Numbers faces, const Numbers& sizes)
 {
     const std::span<const std::uint32_t> given = values_of<std::uint32_t>(sizes);
-    take(std::move(points), std::move(faces),
-         [&](const oibvh::Input& input) { tree_.build(input, given); });
+    take(std::move(points), &faces, [&](const oibvh::Input& input) { tree_.build(input, given); });
 }
 
 void BoundTree::refit(Floats points)
 {
-    take(std::move(points), faces_, [&](const oibvh::Input& input) { tree_.refit(input); });
+    take(std::move(points), nullptr, [&](const oibvh::Input& input) { tree_.refit(input); });
 }
 
 void BoundTree::update(Floats points, const Numbers& moved)
@@ -72,7 +72,7 @@ void BoundTree::update(Floats points, const Numbers& moved)
     std::vector<oibvh::Update> updates;
     for (const std::uint32_t has_moved : values_of<std::uint32_t>(moved))
         updates.push_back(has_moved != 0 ? oibvh::Update::rebuild : oibvh::Update::keep);
-    take(std::move(points), faces_,
+    take(std::move(points), nullptr,
          [&](const oibvh::Input& input) { tree_.update(input, updates); });
 }
 

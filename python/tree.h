@@ -27,7 +27,7 @@ public:
     const oibvh::Tree& tree() const { return tree_; }
 
 private:
-    void take(Floats points, Numbers faces, const std::function<void(const oibvh::Input&)>& work);
+    void take(Floats points, Numbers* faces, const std::function<void(const oibvh::Input&)>& work);
     oibvh::Input input(const Floats& points, const Numbers& faces);
 
     std::shared_ptr<OpenDevice> on_;

@@ -43,7 +43,7 @@ def best(points, faces, device: str | int = "", *, goal: str = "frame", **option
     from ._plots.read import ranking, ranking_text, results
 
     points = np.asarray(points)
-    faces = faces_of(faces, len(points))
+    faces = faces_of(faces)
     with tempfile.TemporaryDirectory() as folder:
         mesh, answer = (pathlib.Path(folder) / name for name in ("mesh.ply", "best.json"))
         mesh.write_bytes(ply(points, faces))

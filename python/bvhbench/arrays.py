@@ -26,12 +26,9 @@ def points_of(given) -> np.ndarray:
     return rounded
 
 
-def faces_of(given, points: int) -> np.ndarray:
-    """Returns faces as (m, 3) indices of 32 bits, each that of one of the points."""
-    faces = indices(given, 3, "faces")
-    if faces.size and faces.max() >= points:
-        raise BadInput(f"a face names point {faces.max()}, and there are {points}")
-    return faces
+def faces_of(given) -> np.ndarray:
+    """Returns faces as (m, 3) indices of 32 bits. Whether there are such points is checked on the device."""
+    return indices(given, 3, "faces")
 
 
 def pairs_of(given, what: str) -> np.ndarray:
@@ -44,20 +41,20 @@ def words_of(given: Iterable[int] | None, what: str) -> np.ndarray:
 
 
 def indices(given, columns: int, what: str) -> np.ndarray:
-    """Returns integers that fit in 32 bits without a sign, in rows of so many columns; of 0, in one row."""
+    """Returns integers from 0 to MOST as words of 32 bits: an array of that many columns, or of one dimension if `columns` is 0."""
     array = np.asarray(given)
     if array.size == 0:
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{what} are integers, not {array.dtype}")
     array = shaped(array, columns, what)
-    if array.size and (array.min() < 0 or array.max() > MOST):
+    if array.dtype != np.uint32 and array.size and (array.min() < 0 or array.max() > MOST):
         raise BadInput(f"{what} are from 0 to {MOST}, not {array.min() if array.min() < 0 else array.max()}")
     return np.ascontiguousarray(array, np.uint32)
 
 
 def shaped(array: np.ndarray, columns: int, what: str) -> np.ndarray:
-    """Returns the array if it has rows of so many columns. An empty one has them."""
+    """Returns the array if it has that many columns, or one dimension if `columns` is 0. An empty array takes that shape."""
     if array.size == 0:
         return array.reshape((0, columns) if columns else 0)
     if array.ndim != (2 if columns else 1) or columns and array.shape[1] != columns:

@@ -29,8 +29,11 @@ def verify(pairs, points, faces, *, answer: str = "pairs", distance: float = 0.0
     points = points_of(points)
     if not np.isfinite(points).all():
         raise _core.BadInput("a point is not finite")
+    faces = faces_of(faces)
+    if faces.size and faces.max() >= len(points):
+        raise _core.BadInput(f"a face names point {faces.max()}, and there are {len(points)}")
     given = np.sort(pairs_of(pairs, "pairs"), axis=1)
-    right = _core.right_pairs(answer, points, faces_of(faces, len(points)), adjacent, distance)
+    right = _core.right_pairs(answer, points, faces, adjacent, distance)
     keys, wanted = (rows.astype(np.uint64) @ np.array([1 << 32, 1], np.uint64) for rows in (given, right))
     missing = right[~np.isin(wanted, keys)]
     extra = given[~np.isin(keys, wanted)]

@@ -20,7 +20,7 @@ class Scene(Queries):
     def add(self, points, faces) -> int:
         """Adds an object over (n, 3) points and (m, 3) faces of them, and returns its number. The next query builds all trees anew."""
         points = points_of(points)
-        faces = faces_of(faces, len(points))
+        faces = faces_of(faces)
         number = self._scene.add(points, faces)
         self._first = np.append(self._first, self._first[-1] + len(faces))
         return number

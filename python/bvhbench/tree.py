@@ -32,7 +32,7 @@ class Tree(Queries):
         """Builds the tree over other triangles, on the same device and with the same options."""
         self._points = 0  # there is no tree until the build succeeds
         points = points_of(points)
-        faces = faces_of(faces, len(points))
+        faces = faces_of(faces)
         owners = None if objects is None else words_of(objects, "objects")
         if owners is not None and len(owners) != len(faces):
             raise _core.BadInput(f"there are {len(owners)} objects of triangles, and {len(faces)} triangles")

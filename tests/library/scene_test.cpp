@@ -95,6 +95,25 @@ TEST_F(LibraryScene, FollowsPosesAndPoints)
     EXPECT_GT(scene.memory(), scene.tree().memory());
 }
 
+/// A call orders what it copies and launches behind the caller's commands and those of earlier calls, also where the queue does not.
+TEST_F(LibraryScene, IsRightOnAQueueOutOfOrder)
+{
+    const Caller other(CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE | CL_QUEUE_PROFILING_ENABLE);
+    oibvh::Device device(other.queue);
+    oibvh::Scene unordered(device);
+    for (const LibraryMesh& part : parts)
+        unordered.add(part.on_host());
+    unordered.tree();
+    for (int k = 0; k < 20; ++k) {
+        unordered.move(1, parts[1].points);
+        unordered.place(1, k % 2 == 0 ? turned : oibvh::Pose{});
+        unordered.place(2, turned);
+    }
+    EXPECT_LE(device.times().size(), 1u) << "of the last call alone";
+    place_by_hand(2, turned);
+    EXPECT_EQ(found_pairs(unordered.tree(), other), swept_pairs(objects.mesh));
+}
+
 TEST_F(LibraryScene, TellsTheObjectOfATriangle)
 {
     for (const auto& [triangle, object, own] : {std::tuple(0u, 0u, 0u),
@@ -138,11 +157,13 @@ TEST_F(LibraryScene, RefusesWhatItCannotDoAndStaysAsItWas)
 
 TEST_F(LibraryScene, HasTheContactsOfEveryColliderWithAndWithoutNeighbours)
 {
+    LibraryMesh repeated = soup_mesh(300);
+    repeated.faces[7] = repeated.faces[3];  // meets itself in more than what it shares
     for (const char* collider : {"leaf", "group", "block", "bvtt"})
         for (const bool adjacent : {false, true}) {
             oibvh::Tree tree(device, {.collider = collider, .adjacent_pairs = adjacent});
             for (const LibraryMesh& mesh :
-                 {soup_mesh(1), soup_mesh(300), scene_mesh("torus:300"), soup_mesh(300, 2)}) {
+                 {soup_mesh(1), repeated, scene_mesh("torus:300"), soup_mesh(300, 2)}) {
                 tree.build(mesh.on_device(caller));
                 EXPECT_EQ(listed(tree, caller, tree.find_contacts()), contacts_of(mesh, adjacent))
                     << collider << adjacent;

@@ -159,6 +159,16 @@ class Input(unittest.TestCase):
         np.full((180, 3), np.nan, np.float32)  # likely where they were
         bvhbench.verify(tree.contacts(), self.points, self.faces, answer="contacts")
 
+    def test_a_build_that_fails_leaves_nothing_behind(self) -> None:
+        faces, bad = self.faces.astype(np.uint32), np.full((180, 3), np.nan, np.float32)
+        tree = bvhbench.Tree(self.points, faces)
+        with self.assertRaises(ValueError):
+            tree.build(bad, faces[::-1].copy())
+        with self.assertRaisesRegex(ValueError, "needs a tree"):
+            tree.pairs()
+        tree.build(self.points, faces)
+        self.assertEqual(rows(tree.pairs()), self.right)
+
     def test_no_faces_have_no_pairs(self) -> None:
         for points in ([], self.points):
             tree = bvhbench.Tree(points, [])
@@ -181,7 +191,8 @@ class Input(unittest.TestCase):
                 (ValueError, lambda: bvhbench.Tree(points, faces[:, :2]), r"faces have the shape \(n, 3\), not \(60, 2\)"),
                 (ValueError, lambda: bvhbench.Tree(points, faces - 1), "faces are from 0 to 4294967295, not -1"),
                 (ValueError, lambda: bvhbench.Tree(points, faces + 2**32), "faces are from 0 to 4294967295, not 4294967475"),
-                (ValueError, lambda: bvhbench.Tree(points, faces + 1), "a face names point 180, and there are 180"),
+                (ValueError, lambda: bvhbench.Tree(points, faces + 1), "triangle 59 names point 180, and there are 180"),
+                (ValueError, lambda: bvhbench.verify([], points, faces + 1), "a face names point 180, and there are 180"),
                 (TypeError, lambda: bvhbench.Tree(points, faces.astype(float)), "faces are integers, not float64"),
                 (TypeError, lambda: bvhbench.Tree(points.astype(complex), faces), "points are real numbers, not complex128"),
                 (ValueError, lambda: bvhbench.Tree(points, faces, order="morton"), "order"),
