@@ -168,12 +168,8 @@ std::vector<Pair> Tree::read_pairs() const
         if (!own.last_pairs)
             throw BadUsage("there are no pairs to read: nothing was queried since the last build");
         own.device->queue.join();
-        std::vector<Pair> pairs;
         const auto& [found, count] = *own.last_pairs;
-        for (const bvhbench::Pair pair :
-             first_entries(found.pairs, count, own.device->queue, "the pairs"))
-            pairs.push_back({pair.a, pair.b});
-        return pairs;
+        return first_entries(found.pairs.as<Pair>(), count, own.device->queue, "the pairs");
     });
 }
 

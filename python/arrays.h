@@ -15,13 +15,14 @@ namespace py = pybind11;
 using Floats = py::array_t<float, py::array::c_style>;
 using Numbers = py::array_t<std::uint32_t, py::array::c_style>;
 
-/// Returns the values of an array, as many a row as `T` has, without a copy.
-template <class T, class Array>
-std::span<const T> values_of(const Array& array)
+/// Returns the values of an array, as many a row as `T` has, without a copy. Asks for no size of an item: pybind11 2.10 takes it from
+/// where NumPy 2 no longer has it.
+template <class T, class Item>
+std::span<const T> values_of(const py::array_t<Item, py::array::c_style>& array)
 {
-    static_assert(sizeof(T) % sizeof(typename Array::value_type) == 0);
+    static_assert(sizeof(T) % sizeof(Item) == 0);
     return {reinterpret_cast<const T*>(array.data()),
-            static_cast<std::size_t>(array.nbytes()) / sizeof(T)};
+            static_cast<std::size_t>(array.size()) * sizeof(Item) / sizeof(T)};
 }
 
 /// Runs `work` without the GIL, so that other threads of Python go on.

@@ -6,11 +6,12 @@
 namespace bvhbench::python {
 namespace {
 
-cl::Buffer over(const OpenDevice& on, const py::array& array)
+template <class T>
+cl::Buffer over(const OpenDevice& on, std::span<const T> values)
 {
     try {
         return {on.queue.getInfo<CL_QUEUE_CONTEXT>(), CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR,
-                static_cast<std::size_t>(array.nbytes()), const_cast<void*>(array.data())};
+                values.size_bytes(), const_cast<T*>(values.data())};
     } catch (...) {
         oibvh::rethrow_as_error();
     }
@@ -35,8 +36,8 @@ oibvh::Input BoundTree::input(const Floats& points, const Numbers& faces)
     const auto triangles = values_of<oibvh::Face>(faces);
     if (!on_->shares_host_memory || corners.empty() || triangles.empty())
         return oibvh::HostTriangles{corners, triangles};
-    points_buffer_ = over(*on_, points);
-    faces_buffer_ = over(*on_, faces);
+    points_buffer_ = over(*on_, corners);
+    faces_buffer_ = over(*on_, triangles);
     return oibvh::DeviceTriangles{points_buffer_(), corners.size(), faces_buffer_(),
                                   triangles.size()};
 }

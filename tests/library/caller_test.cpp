@@ -88,7 +88,7 @@ TEST(LibraryQueues, GetsTimesFromAQueueThatHasThem)
         Caller caller(kind);
         oibvh::Device device(caller.queue);
         oibvh::Tree tree(device, {.order = "morton30"});
-        const LibraryMesh mesh = soup_mesh(5000);
+        const LibraryMesh mesh = soup_mesh(50000);
         tree.build(mesh.on_host());
         std::map<std::string, oibvh::Stage> stages;
         for (const oibvh::Stage& stage : device.times())
