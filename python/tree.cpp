@@ -17,10 +17,14 @@ cl::Buffer over(const OpenDevice& on, std::span<const T> values)
     }
 }
 
-/// Waits at its end for the kernels, which read arrays.
+/// Waits at its end for the kernels, if they read arrays.
 struct Finishing {
     const OpenDevice& on;
-    ~Finishing() { clFinish(on.queue()); }
+    ~Finishing()
+    {
+        if (on.shares_host_memory)
+            clFinish(on.queue());
+    }
 };
 
 }  // namespace

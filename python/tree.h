@@ -14,7 +14,7 @@ class BoundTree {
 public:
     BoundTree(std::shared_ptr<OpenDevice> on, oibvh::Options options);
 
-    /// `sizes` are those of the objects, as oibvh::Tree::build takes them. Waits, as all calls.
+    /// `sizes` are those of the objects, as oibvh::Tree::build takes them. Waits if kernels read the arrays, as `refit` and `update`.
     void build(Floats points, Numbers faces, const Numbers& sizes);
     void refit(Floats points);
 

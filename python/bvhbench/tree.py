@@ -17,8 +17,8 @@ class Tree(Queries):
     order, builder, collider   as Options of the C++ library has them; the best on the device if empty
 
     On a processor arrays of float32 and uint32 that are contiguous are not copied: the tree reads them up to the next `build`, `refit` or
-    `update`, so they must not be written until then. All calls wait, without the GIL. Threads may share a device and a tree, whose calls
-    take turns.
+    `update`, so they must not be written until then. Queries wait, and there builds do, all without the GIL. Threads may share a device,
+    and a tree, whose calls take turns.
 
     Raises BadInput (a ValueError) for values and shapes, TypeError for other types, Unavailable for too little memory.
     """

@@ -88,7 +88,7 @@ TEST(LibraryQueues, GetsTimesFromAQueueThatHasThem)
         Caller caller(kind);
         oibvh::Device device(caller.queue);
         oibvh::Tree tree(device, {.order = "morton30"});
-        const LibraryMesh mesh = soup_mesh(50000);
+        const LibraryMesh mesh = soup_mesh(5000);
         tree.build(mesh.on_host());
         std::map<std::string, oibvh::Stage> stages;
         for (const oibvh::Stage& stage : device.times())
@@ -97,7 +97,12 @@ TEST(LibraryQueues, GetsTimesFromAQueueThatHasThem)
             EXPECT_TRUE(stages.empty());
             continue;
         }
-        for (const char* name : {"check", "bounds", "codes", "sort", "gather", "hierarchy"}) {
+        std::vector<const char*> names = {"check", "gather", "hierarchy"};
+        if (stages.contains("order"))  // boxes, codes and sort in one launch, on some GPUs
+            names.push_back("order");
+        else
+            names.insert(names.end(), {"bounds", "codes", "sort"});
+        for (const char* name : names) {
             EXPECT_GT(stages[name].launches, 0) << name;
             EXPECT_GT(stages[name].span_ns, 0) << name;
             EXPECT_GE(stages[name].span_ns, stages[name].busy_ns) << name;
