@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "geometry/names.h"
 
-#include <algorithm>
+#include <cctype>
 
 namespace bvhbench {
 
 constexpr std::size_t longest_list = 12;  ///< names that a sentence has beside a guess
+constexpr std::size_t shortest_word = 3;  ///< that is looked for in names and summaries
 
 std::string joined(std::span<const std::string_view> words)
 {
@@ -36,6 +37,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
     return steps[a.size()][b.size()];
 }
 
+/// Returns the letters and digits of `text`, the letters small.
+std::string plain(std::string_view text)
+{
+    std::string out;
+    for (const unsigned char c : text)
+        if (std::isalnum(c) != 0)
+            out += static_cast<char>(std::tolower(c));
+    return out;
+}
+
 }  // namespace
 
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known)
@@ -51,10 +62,17 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 }
 
 std::string there_are(std::string_view name, std::span<const std::string_view> known,
-                      std::string_view also)
+                      std::string_view also, std::span<const std::string_view> summaries)
 {
     const std::string_view meant = nearest_name(name, known);
-    const std::string guess = meant.empty() ? "" : "; did you mean '" + std::string(meant) + "'?";
+    std::string guess = meant.empty() ? "" : "; did you mean '" + std::string(meant) + "'?";
+    const std::string word = plain(name);
+    if (meant.empty() && word.size() >= shortest_word)
+        for (std::size_t i = 0; i < summaries.size(); ++i)
+            if (plain(std::string(known[i]) + std::string(summaries[i])).find(word) !=
+                    std::string::npos ||
+                word.find(plain(known[i])) != std::string::npos)
+                guess += (guess.empty() ? "; did you mean one of: " : ", ") + std::string(known[i]);
     if (!guess.empty() && known.size() > longest_list)
         return guess;
     std::vector<std::string_view> all(known.begin(), known.end());

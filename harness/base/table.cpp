@@ -40,8 +40,10 @@ std::string Table::text(std::size_t width) const
     constexpr std::size_t gap = 2, indent = 4;
     std::vector<std::size_t> widths;
     std::size_t fitting = 0, end = 0;  // number of columns that fit, and where they end
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-        widths.push_back(character_count(columns_[i].title));
+    std::vector<std::string> titles;
+    for (std::size_t i = 0; i < titles_.size(); ++i) {
+        titles.push_back(titles_[i].substr(titles_[i].starts_with('<') ? 1 : 0));
+        widths.push_back(character_count(titles[i]));
         for (const auto& row : rows_)
             widths[i] = std::max(widths[i], i < row.size() ? character_count(row[i]) : 0);
         if (i == 0 || (i == fitting && (width == 0 || end + gap + widths[i] <= width))) {
@@ -54,7 +56,7 @@ std::string Table::text(std::size_t width) const
     std::string out;
     const auto line = [&](const auto& entry_at) {
         std::string text, more;
-        for (std::size_t i = 0; i < columns_.size(); ++i) {
+        for (std::size_t i = 0; i < titles.size(); ++i) {
             const std::string entry = entry_at(i);
             if (i >= fitting) {
                 more += (more.empty() || entry.empty() ? "" : "; ") + entry;
@@ -62,7 +64,7 @@ std::string Table::text(std::size_t width) const
             }
             const std::string blank(widths[i] - character_count(entry), ' ');
             text += i == 0 ? "" : "  ";
-            text += columns_[i].align == Align::left ? entry + blank : blank + entry;
+            text += titles_[i].starts_with('<') ? entry + blank : blank + entry;
         }
         text.erase(text.find_last_not_of(' ') + 1);
         for (const std::string& each : wrapped(more, width - margin)) {
@@ -74,8 +76,8 @@ std::string Table::text(std::size_t width) const
         }
         out += text + '\n';
     };
-    if (!std::ranges::all_of(columns_, &std::string::empty, &Column::title))
-        line([&](std::size_t i) { return columns_[i].title; });
+    if (!std::ranges::all_of(titles, &std::string::empty))
+        line([&](std::size_t i) { return titles[i]; });
     for (const auto& row : rows_)
         line([&](std::size_t i) { return i < row.size() ? row[i] : std::string(); });
     return out;

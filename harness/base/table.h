@@ -6,16 +6,10 @@
 
 namespace bvhbench {
 
-/// A console table. Columns are as wide as their widest entry and aligned left (words) or right (numbers).
+/// A console table. Columns are as wide as their widest entry and aligned right (numbers), or left (words) if "<" begins the title.
 class Table {
 public:
-    enum class Align { left, right };
-    struct Column {
-        std::string title;
-        Align align = Align::right;
-    };
-
-    explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
+    explicit Table(std::vector<std::string> titles) : titles_(std::move(titles)) {}
 
     /// Adds a row with one entry per column; missing entries at the end are blank.
     void row(std::vector<std::string> entries) { rows_.push_back(std::move(entries)); }
@@ -25,7 +19,7 @@ public:
     std::string text(std::size_t width = 0) const;
 
 private:
-    std::vector<Column> columns_;
+    std::vector<std::string> titles_;
     std::vector<std::vector<std::string>> rows_;
 };
 

@@ -18,10 +18,17 @@ constexpr std::string_view radix_tree = "radix-reference";
 constexpr std::string_view hploc_tree = "hploc-reference";
 constexpr std::string_view own_tree = {};  // no other builder makes it: only invariants are checked
 
+constexpr BuilderEntry in_own_order(std::string_view name, std::string_view summary,
+                                    MakeBuilder make, std::string_view absent = {},
+                                    std::string_view may_refuse = {}, bool is_library = false)
+{
+    return {name, summary, own_tree, make, absent, may_refuse, is_library, false, true};
+}
+
 constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    constexpr std::string_view refusal = "Embree takes no coordinates beyond 1.8e18";
-    return {name, summary, own_tree, make, embree_absent, refusal, true};
+    return in_own_order(name, summary, make, embree_absent,
+                        "Embree takes no coordinates beyond 1.8e18", true);
 }
 
 constexpr BuilderEntry in_any_format(std::string_view name, std::string_view summary,
@@ -34,27 +41,27 @@ constexpr BuilderEntry in_any_format(std::string_view name, std::string_view sum
 constexpr BuilderEntry own_builders[] = {
     in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree,
                   make_perfect),
-    in_any_format("karras", "radix tree, topology from all nodes at once, then boxes", radix_tree,
-                  make_karras),
-    in_any_format("apetrei", "radix tree bottom-up as printed: ranges and counters in memory",
+    in_any_format("karras", "LBVH [Karras2012]: topology of all nodes at once, then boxes",
+                  radix_tree, make_karras),
+    in_any_format("apetrei", "LBVH [Apetrei2014] as printed: ranges and counters in memory",
                   radix_tree, make_apetrei),
-    in_any_format("apetrei-fused",
-                  "radix tree, topology and boxes in one launch, one exchange a node", radix_tree,
-                  make_apetrei_fused),
+    in_any_format("apetrei-fused", "LBVH, topology and boxes in one launch, one exchange a node",
+                  radix_tree, make_apetrei_fused),
     in_any_format("lbvh-levels",
-                  "radix tree level by level: topology from the root down, boxes back up",
+                  "LBVH [Lauterbach2009] by levels: topology from the root down, boxes back up",
                   radix_tree, make_lbvh_levels),
-    in_any_format("hploc", "radix tree whose ranges are joined anew by surface area, in one launch",
+    in_any_format("hploc",
+                  "LBVH, its ranges joined anew by surface area [Benthin2024], in a launch",
                   hploc_tree, make_hploc),
     in_any_format("oibvh-single", "Oi-BVH in one launch, whole groups go on above others' subtrees",
                   oi_tree, make_oibvh_single),
     in_any_format("oibvh-single-printed",
-                  "Oi-BVH in one launch as printed: work-items meet through global atomics",
-                  oi_tree, make_oibvh_single_printed),
+                  "Oi-BVH in one launch as [Chitalu2020] prints it, by global atomics", oi_tree,
+                  make_oibvh_single_printed),
     in_any_format("oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
                   make_oibvh_multi),
     in_any_format("oibvh-multi-printed",
-                  "Oi-BVH in several launches as printed: work-items meet through local atomics",
+                  "Oi-BVH in several launches as [Chitalu2020] prints it, by local atomics",
                   oi_tree, make_oibvh_multi_printed),
     {"oibvh-wide4", "Oi-BVH with 4 children a node, their boxes side by side", own_tree,
      make_oibvh_wide4},
@@ -65,22 +72,24 @@ constexpr BuilderEntry own_builders[] = {
                   oi_tree, make_oibvh_host),
     {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", oi_tree,
      make_oibvh_reference},
-    {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,
+    {"radix-reference", "LBVH on one core of the host, slowly: the oracle", radix_tree,
      make_radix_reference},
     {"hploc-reference", "the tree of hploc on one core of the host, slowly: the oracle", hploc_tree,
      make_hploc_reference},
-    {"heap-median", "left-balanced heap, split at medians, on a host core", own_tree,
-     make_heap_median},
-    {"median-split", "halves along the longest axis, on a host core", own_tree, make_median_split},
-    {"sah-binned", "binned surface area heuristic, on a host core", own_tree, make_sah_binned},
+    in_own_order("heap-median", "left-balanced heap, split at medians, on a host core",
+                 make_heap_median),
+    in_own_order("median-split", "halves along the longest axis, on a host core",
+                 make_median_split),
+    in_own_order("sah-binned", "binned surface area heuristic, on a host core", make_sah_binned),
     of_embree("embree-low", "Embree's Morton builder, on all host threads", make_embree_low),
     of_embree("embree-medium", "Embree's binned SAH, on all host threads", make_embree_medium),
     of_embree("embree-high", "Embree's best without splitting triangles: as embree-medium",
               make_embree_high),
-    {"fcl-aabb", "FCL's tree of axis-aligned boxes, on a host core", own_tree, make_fcl_aabb,
-     fcl_absent, "", true},
-    {"fcl-obbrss", "FCL's tree of oriented boxes, on a host core, shown with axis-aligned ones",
-     own_tree, make_fcl_obbrss, fcl_absent, "", true},
+    in_own_order("fcl-aabb", "FCL's tree of axis-aligned boxes, on a host core", make_fcl_aabb,
+                 fcl_absent, "", true),
+    in_own_order("fcl-obbrss",
+                 "FCL's tree of oriented boxes, on a host core, shown with axis-aligned ones",
+                 make_fcl_obbrss, fcl_absent, "", true),
 };
 
 // Host memory of the libraries per triangle. Embree: 24 bytes for the box, and 104 measured as the growth of the process beyond
@@ -230,6 +239,7 @@ void add_outside(outside::Library library, const outside::Limits& limits)
                                     .oracle = own_tree,
                                     .make = nullptr,
                                     .is_library = true,
+                                    .own_order = true,
                                     .outside = offer});
         const auto add_collider = [&](std::string_view name, std::string_view what, bool refits) {
             all.colliders.push_back({.name = name,
@@ -255,6 +265,8 @@ void add_broken_outside(const std::string& why)
     std::string& broken = outside_entries().broken;
     broken += (broken.empty() ? "" : "; ") + why;
 }
+
+bool has_broken_outside() { return !outside_entries().broken.empty(); }
 
 bool has_outside() { return !outside_entries().libraries.empty(); }
 

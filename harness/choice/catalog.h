@@ -28,6 +28,7 @@ struct BuilderEntry {
     std::string_view may_refuse = {};
     bool is_library = false;     ///< the work is done by a third-party library
     bool takes_formats = false;  ///< whether its tree can hold boxes in any of box_formats()
+    bool own_order = false;      ///< whether it ignores BuildOptions::order
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
     /// Its plug-in, as far as can be told, does not start: `absent` says why.
     bool is_broken = false;
@@ -141,6 +142,9 @@ void add_outside(outside::Library library, const outside::Limits& limits);
 
 /// Notes that a plug-in does not start, and why. Names that no other plug-in has may be its.
 void add_broken_outside(const std::string& why);
+
+/// True if a plug-in does not start.
+bool has_broken_outside();
 
 /// True if the catalogs have a method from outside.
 bool has_outside();

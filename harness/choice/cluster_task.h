@@ -51,17 +51,6 @@ struct ClusterTask {
     bool has_narrow() const { return is_within() || pipeline.collider.narrow != "none"; }
 };
 
-/// Returns the value of `Kind` with this name among `names`. Throws BadUsage, which says what it is of, if there is none.
-template <class Kind, std::size_t count>
-Kind value_called(const std::string& what, const std::string& name,
-                  const std::string_view (&names)[count])
-{
-    const auto found = std::ranges::find(names, name);
-    if (found == std::end(names))
-        throw BadUsage("no " + what + " is called '" + name + '\'' + there_are(name, names));
-    return static_cast<Kind>(found - std::begin(names));
-}
-
 /// Throws BadUsage for what can be on no device, before any process is started.
 void check_task(const ClusterTask& task);
 

@@ -2,15 +2,14 @@
 #include "harness/choice/sampling.h"
 
 #include <algorithm>
-#include <array>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 
-constexpr std::array<std::string_view, 4> races = {"", "whole", "query", "memory"};
+constexpr std::string_view races[] = {"", "whole", "query", "memory"};
 
-constexpr std::array<std::string_view, 3> caches_names = {"hot", "cold", "host"};
+constexpr std::string_view caches_names[] = {"hot", "cold", "host"};
 
 std::string_view caches_name(Caches caches)
 {
@@ -19,20 +18,14 @@ std::string_view caches_name(Caches caches)
 
 Caches caches_called(std::string_view name)
 {
-    const auto found = std::find(caches_names.begin(), caches_names.end(), name);
-    if (found == caches_names.end())
-        throw BadUsage("caches are hot, cold or host, not '" + std::string(name) + "'");
-    return static_cast<Caches>(found - caches_names.begin());
+    return value_called<Caches>("state of caches", name, caches_names);
 }
 
 std::string_view race_name(Race race) { return races[static_cast<std::size_t>(race)]; }
 
 Race race_called(std::string_view name)
 {
-    const auto found = std::find(races.begin() + 1, races.end(), name);
-    if (found == races.end())
-        throw BadUsage("a race is for whole, query or memory, not '" + std::string(name) + "'");
-    return static_cast<Race>(found - races.begin());
+    return static_cast<Race>(1 + value_called<int>("race", name, std::span(races).subspan(1)));
 }
 
 void SamplingWords::apply(SamplingRules& rules) const

@@ -17,8 +17,6 @@
 namespace bvhbench {
 namespace {
 
-using enum Table::Align;
-
 std::vector<BuilderChoice> chosen_builders(const std::string& name)
 {
     if (!name.empty() && !find_builder(name).absent.empty())
@@ -115,7 +113,7 @@ private:
     Session& session_;
     std::vector<BuilderChoice> builders_;
     std::vector<Tally> tallies_;  ///< of each builder over the current input
-    Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"contract", left}, {"", left}}};
+    Table table_{{"<builder", "<input", "checks", "<contract", "<"}};
     Tally all_;
 };
 

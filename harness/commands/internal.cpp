@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/base/failure.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/choices.h"
@@ -30,8 +31,11 @@ Json expanded(const Json& described, const SceneLibrary& library)
         for (const PlannedScene& scene : planned_scenes(plan, {}, {}, ""))
             std::ranges::move(planned_cells(scene, {}), std::back_inserter(planned));
         Json cells = Json::array();
-        for (const Cell& cell : planned) {
+        for (Cell& cell : planned) {
             check_powers({cell.builder, cell.collider});
+            if (const BuilderEntry* entry = find_name(builder_catalog(), cell.builder.name);
+                entry != nullptr && entry->own_order)
+                cell.builder.order = BuildOptions().order;  // the same tree in each order
             cells.push_back(Json::parse(cell_text(cell)));
         }
         const std::string& scene = planned.front().scene.name;

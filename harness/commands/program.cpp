@@ -75,12 +75,11 @@ public:
         try {
             app_.parse(argc, argv);
         } catch (const CLI::ParseError& error) {
+            const std::string command = check_names(argc, argv);
             std::ostringstream out;
-            if (app_.exit(error, out, out) != 0) {
-                check_names(argc, argv);
-                throw BadUsage(std::string(error.what()) +
-                               "; `bvhbench --help` lists what there is");
-            }
+            if (app_.exit(error, out, out) != 0)
+                throw BadUsage(error.what() + ("; `bvhbench help" + command) +
+                               "` says what it takes");
             to_print_ = out.str();
             return;
         }
@@ -111,13 +110,13 @@ public:
     }
 
 private:
-    /// Throws BadUsage if the first word that is no option is no command, or if a word behind it is an option that the command lacks.
-    /// The parser would complain of what is missing first.
-    void check_names(int argc, const char* const* argv) const
+    /// Returns the command, behind a blank; an empty string if there is none. Throws BadUsage if the first word that is no option is no
+    /// command, or if a word behind it is an option that the command lacks. The parser would complain of what is missing first.
+    std::string check_names(int argc, const char* const* argv) const
     {
         const int place = command_place(argc, argv);
         if (place == argc)
-            return;
+            return {};
         if (find_name(commands(), argv[place]) == nullptr)
             throw BadUsage("no command is called '" + std::string(argv[place]) + '\'' +
                            there_are(argv[place], listed_commands()));
@@ -128,6 +127,7 @@ private:
                 command.get_option_no_throw(name) == nullptr)
                 refuse_option(name, command);
         }
+        return ' ' + command.get_name();
     }
     [[noreturn]] void refuse_option(const std::string& name, const CLI::App& command) const
     {

@@ -147,22 +147,16 @@ private:
     /// Returns what decides, beside the plan, what is measured. Of a program with changes in no commit, its file is part of it.
     std::string settings(const Session& session, const CommonOptions& common) const
     {
-        Json words = {filter_,
-                      samples_,
-                      sampling_.until.value_or(0),
-                      sampling_.time_budget_s.value_or(0),
-                      sampling_.drift_limit.value_or(0),
-                      sampling_.min_samples.value_or(0),
-                      sampling_.max_samples.value_or(0),
-                      sampling_.calibrate_every.value_or(0),
-                      sampling_.race,
-                      sampling_.caches,
-                      quick_,
-                      quality_,
-                      costs_.inner,
-                      costs_.triangle,
-                      common.doubles,
-                      session.device().tuning.values()};
+        Json words = {filter_,        samples_,
+                      sampling_.race, sampling_.caches,
+                      quick_,         quality_,
+                      costs_.inner,   costs_.triangle,
+                      common.doubles, session.device().tuning.values()};
+        for (const auto& one : {sampling_.until, sampling_.time_budget_s, sampling_.drift_limit})
+            words.push_back(one.value_or(0));
+        for (const auto& one :
+             {sampling_.min_samples, sampling_.max_samples, sampling_.calibrate_every})
+            words.push_back(one.value_or(0));
         if (build_info.dirty)
             words.push_back(hash_of_program());
         return words.dump();

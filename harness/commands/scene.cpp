@@ -47,7 +47,7 @@ Table facts_table(const Scene& scene)
 {
     const MeshFacts& facts = *scene.facts;
     const Reading& reading = scene.reading;
-    Table table({{"", Table::Align::left}, {"", Table::Align::left}});
+    Table table({"<", "<"});
     const auto count_if = [&](const char* what, std::uint64_t count) {
         if (count > 0)
             table.row({what, std::to_string(count)});

@@ -30,33 +30,25 @@ std::size_t bytes_of(const std::string& text)
     return number << (10 * place);
 }
 
-/// Accepts a number from 0 to `most`. CLI::Range would accept NaN.
-CLI::Validator a_number(int most)
+/// Accepts a number from 0 to `most`, or a share, as "5%" or "0.05", which a transformation replaces by its decimal. CLI::Range would
+/// accept NaN.
+CLI::Validator a_number(double most, bool is_share = false)
 {
-    const auto check = [most](const std::string& word) {
-        double value = -1;
-        return RE2::FullMatch(word, "([-+.\\deE]+)", &value) && value >= 0 && value <= most
-                   ? std::string()
-                   : "must be a number from 0 to " + std::to_string(most) + ", not '" + word + "'";
-    };
-    return {check, "", "a number"};
-}
-
-/// Accepts a fraction from 0 to `most`, as "5%" or "0.05", and replaces it by its decimal: 0.05.
-CLI::Validator a_share(double most)
-{
-    const auto read = [most](std::string& word) {
+    const std::string what = is_share ? "share" : "number",
+                      unit = is_share ? "%, as 5% or 0.05" : "";
+    const int end = static_cast<int>(is_share ? 100 * most : most);
+    const auto read = [=](std::string& word) {
         double value = -1;
         std::string percent;
         const bool is_read = RE2::FullMatch(word, "([-+.\\deE]+)(%?)", &value, &percent);
         value /= percent.empty() ? 1 : 100;
-        if (!is_read || value < 0 || value > most)
-            return "must be a share from 0 to " + std::to_string(static_cast<int>(100 * most)) +
-                   "%, as 5% or 0.05, not '" + word + "'";
-        word = Json(value).dump();
+        if (!is_read || (!is_share && !percent.empty()) || value < 0 || value > most)
+            return "must be a " + what + " from 0 to " + std::to_string(end) + unit + ", not '" +
+                   word + "'";
+        word = is_share ? Json(value).dump() : word;
         return std::string();
     };
-    return {read, "", "a share"};
+    return {read, "", "a " + what};
 }
 
 }  // namespace
@@ -70,8 +62,7 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
     app.add_option("--doubles", common.doubles,
                    "recentred or as-is: how coordinates of a file that floats cannot hold are "
-                   "rounded; kept: "
-                   "steps between frames go by the doubles")
+                   "rounded; kept: steps between frames go by the doubles")
         ->capture_default_str();
     app.add_flag("--weld", common.weld,
                  "join vertices of equal position, so that triangles beside each other are "
@@ -118,7 +109,7 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
     app.add_option("--until", sampling.until,
                    "sample each cell until the range between its quartiles is this share of the "
                    "median, as 2%")
-        ->transform(a_share(1))
+        ->transform(a_number(1, true))
         ->excludes(number);
     app.add_option("--min-samples", sampling.min_samples, "with --until: at least so many; 15")
         ->check(CLI::Range(2, most_samples));
@@ -140,7 +131,7 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
         ->check(CLI::Range(0, most_samples));
     app.add_option("--drift-limit", sampling.drift_limit,
                    "mark samples beside a look that is further off its median; 25%")
-        ->transform(a_share(1000));
+        ->transform(a_number(1000, true));
 }
 
 void SeveralNames::add_builders(CLI::App& app)
@@ -170,7 +161,8 @@ std::vector<CellChoice> SeveralNames::combined_with(const CellChoice& choice) co
                 one.collider.name = collider;
                 const bool needs_tree = collider.empty() || find_collider(collider).needs_tree;
                 one.builder.name = needs_tree ? builder : builders.front();
-                one.builder.order = needs_tree ? order : orders.front();
+                if (needs_tree && !find_builder(builder).own_order)
+                    one.builder.order = order;
                 find_order(order);
                 check_choice(one);
                 check_powers(one);

@@ -23,7 +23,8 @@ struct SeveralNames {
     void add_builders(CLI::App& app);
     void add_orders(CLI::App& app);
 
-    /// Returns `choice` with each combination of the names. A collider that queries no tree is combined once. Throws BadUsage for
+    /// Returns `choice` with each combination of the names. A collider that queries no tree is combined once, and a
+    /// builder whose leaves have an order of their own once with no order. Throws BadUsage for
     /// a wrong combination or an unknown name.
     std::vector<CellChoice> combined_with(const CellChoice& choice) const;
 };

@@ -35,8 +35,7 @@ Experiment portable_experiment()
 
 std::string device_text(const Device& device)
 {
-    using enum Table::Align;
-    Table table({{"", left}, {"", left}});
+    Table table({"<", "<"});
     const Json run = run_facts(device, {});
     for (const auto& [key, value] : run["device"].items())
         table.row({key == "name" ? "device" : key,

@@ -229,13 +229,7 @@ SearchResult search(const MakeTrial& make, const Tuning& start,
 
 std::string search_report(const SearchResult& result)
 {
-    using enum Table::Align;
-    Table table({{"parameter", left},
-                 {"value"},
-                 {"stage", left},
-                 {"median"},
-                 {"to current"},
-                 {"verdict", left}});
+    Table table({"<parameter", "value", "<stage", "median", "to current", "<verdict"});
     for (const TrialResult& tried : result.tries)
         table.row({std::string(tried.parameter->name), std::to_string(tried.value),
                    tried.parameter->stage.empty() ? "all" : std::string(tried.parameter->stage),

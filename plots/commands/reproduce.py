@@ -53,8 +53,7 @@ def parser() -> command.Parser:
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
     if arguments.what not in (*SHOWN, "all"):
-        raise output.WrongUsage(f"WHAT: there is no '{arguments.what}'; there are: {', '.join(SHOWN)}, all; "
-                                "`bvhbench --help` lists what there is")
+        raise output.WrongUsage(f"WHAT: there is no '{arguments.what}'; there are: {', '.join(SHOWN)}, all")
     is_all = arguments.what == "all"
     # A run is named after its experiment if several figures share it, otherwise after the requested figure.
     runs = {experiment: [name for name, (other, _) in SHOWN.items() if other == experiment]

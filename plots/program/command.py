@@ -74,7 +74,7 @@ class Parser(argparse.ArgumentParser):
                 raise output.WrongUsage(f"there is no option {name}; "
                                         + (f"did you mean {meant[0]}?" if meant else f"`{self.prog} --help` lists them"))
         message = message.replace("unrecognized arguments:", "The following argument was not expected:")
-        raise output.WrongUsage(f"{message}; `bvhbench --help` lists what there is")
+        raise output.WrongUsage(f"{message}; `{self.prog.replace(' ', ' help ')}` says what it takes")
 
     def format_help(self) -> str:
         shown = [action for action in self._actions if action.help is not argparse.SUPPRESS]

@@ -30,6 +30,12 @@ TEST(Names, ASentenceHasTheNamesAndTheNearest)
     EXPECT_EQ(there_are("karas", many), "; did you mean 'karras'?");
     EXPECT_EQ(there_are("x", std::span(known).first(2), "or all"),
               "; there are: karras, oibvh-multi, or all");
+    const std::string_view summaries[] = {"LBVH [Karras2012]", "of several", "LBVH"};
+    EXPECT_EQ(there_are("lbvh", std::span(known).first(3), {}, summaries),
+              "; there are: karras, oibvh-multi, oibvh-single; did you mean one of: karras, "
+              "oibvh-single");
+    EXPECT_EQ(there_are("Karras, 2012", std::span(known).first(3), {}, summaries),
+              "; there are: karras, oibvh-multi, oibvh-single; did you mean one of: karras");
     struct Entry {
         std::string_view name;
     };

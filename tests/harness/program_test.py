@@ -41,6 +41,13 @@ SENTENCES = (
     (0, "--wide show --help", "result files"),
     (0, "build --help", "--group-size"),
     (0, "--version", "bvhbench "),
+    (2, "help nosuch", "no command is called 'nosuch'; there are: list, "),
+    (2, "collide --scene soup:5", "--collider is required; `bvhbench help collide` says what it takes"),
+    (2, "show", "FILE is required; `bvhbench help show` says what it takes"),
+    (2, "build --builder Karras-2012 --scene soup:5", "did you mean one of: karras\n"),
+    (2, "build --builder lbvh --scene soup:5", "did you mean one of: karras, apetrei, apetrei-fused, lbvh-levels, hploc, radix-reference\n"),
+    (3, "list colliders --plugin ./nope.so", "there is no file './nope.so'"),
+    (0, "list", "experiments  what"),
     (0, "list scenes", "\nsoup:"),
     (0, "list devices", "  index 0  "),
     (0, "list orders", "morton30 "),
@@ -66,6 +73,18 @@ def test_lists_put_the_name_first():
              "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference", "radix-reference", "hploc-reference"]
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
     assert [name for name in first if name in known] == known, first  # whatever docs/adding-a-builder.md adds between them
+
+
+def test_builders_with_an_order_of_their_own_make_one_tree_and_are_combined_once():
+    order_of = {name: order for name, order, _ in json.loads(expect(0, "list", "builders", "--json"))}
+    asked = [{"name": name, "order": order} for name in order_of for order in ("morton30", "hilbert30")]
+    expect(0, "run", experiment("orders.json", scenes=["soup:300"], builders=asked, samples=1), "--out", "trees.json")
+    trees = {}
+    for cell in valid("trees.json")["cells"]:
+        trees.setdefault(cell["builder"]["name"], set()).add(cell["check"]["tree_hash"])
+    assert {name: len(hashes) for name, hashes in trees.items()} == {name: 1 + (order == "any order") for name, order in order_of.items()}
+    expect(0, "build", "--builder", "karras,sah-binned", "--order", "kd,morton30", "--scene", "soup:300", "--samples", "1", "--json", "once.json")
+    assert [cell["builder"]["name"] for cell in valid("once.json")["cells"]] == ["karras", "karras", "sah-binned"]
 
 
 def lines_of(shown: str) -> list[str]:

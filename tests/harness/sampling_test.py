@@ -42,7 +42,7 @@ def test_what_makes_no_sense_is_refused() -> None:
     expect(2, *BUILD, "--until", "2", says="a share")
     expect(2, *BUILD, "--min-samples", "9", says="--until begins")
     expect(2, *BUILD, "--until", "2%", "--min-samples", "30", "--max-samples", "20", says="at most 20")
-    expect(2, "run", "smoke", "--race", "fastest", says="a race is for whole, query or memory, not 'fastest'")
+    expect(2, "run", "smoke", "--race", "fastest", says="no race is called 'fastest'; there are: whole, query, memory")
     for turns in ("turns", "turns:1", ":2", "turns:x", "turns:99"):
         expect(2, "run", "smoke", "--turns", turns, says="--turns names a file and how many runs")
 
@@ -79,7 +79,7 @@ def test_each_kind_of_caches_has_cells_of_its_own() -> None:
                 assert names[0] == "upload" and (names[-1] == "read_back") == is_frame
                 assert sample["wall_ns"] >= sum(stage.get("wall_ns", 0) + stage.get("busy_ns", 0) for stage in sample["stages"])
     assert [cell["sampling"]["caches"] for cell in cells_after("run", "kinds.json", "--caches", "host")] == 3 * ["host"]
-    expect(2, "run", "kinds.json", "--caches", "warm", says="caches are hot, cold or host, not 'warm'")
+    expect(2, "run", "kinds.json", "--caches", "warm", says="no state of caches is called 'warm'; there are: hot, cold, host")
     expect(2, "run", "kinds.json", "--race", "whole", says="--caches: a race is with hot or with cold ones")
 
 
