@@ -25,6 +25,8 @@
 
 namespace bvhbench {
 
+constexpr const char* quick_scene = "cloth-ball:2000:4";  ///< moves, and has contacts
+
 /// Options of an axis.
 struct AxisTask {
     std::vector<std::string> scenes;  ///< empty: the axis's own scenes

@@ -129,7 +129,7 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
 void measure_queries(const AxisRun& run)
 {
     std::vector<std::string> asked = run.task.scenes;
-    if (asked.empty())
+    if (asked.empty() || asked.front() == quick_scene)
         asked = {"ccd_wang2021", "ccd_scalable"};
     for (const std::string& name : asked) {
         run.progress.note("accuracy, queries: " + name);

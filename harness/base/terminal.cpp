@@ -37,6 +37,8 @@ bool is_obeyed(char32_t code)
            (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
 }
 
+constexpr std::chrono::seconds a_while{30};  ///< between two lines where no terminal is
+
 double seconds(std::chrono::steady_clock::duration time)
 {
     return std::chrono::duration<double>(time).count();
@@ -115,7 +117,11 @@ std::string so_far(const std::string& what, int seconds, std::size_t done, std::
            std::to_string(total) + " are done";
 }
 
-Progress::Progress(std::size_t total) : total_(total), is_shown_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::size_t total)
+    : total_(total)
+    , is_shown_(isatty(STDERR_FILENO) == 1)
+    , shown_(is_shown_ ? Clock::time_point() : start_)
+{}
 
 void Progress::clear() const
 {
@@ -133,15 +139,16 @@ void Progress::step(const std::string& what)
 void Progress::note(const std::string& what, double share)
 {
     const auto now = Clock::now();
-    if (!is_shown_ || (share > 0 && now - shown_ < std::chrono::milliseconds(200)))
+    const auto since = now - shown_;
+    if (is_shown_ ? share > 0 && since < std::chrono::milliseconds(200) : since < a_while)
         return;
     shown_ = now;
     const double left = seconds_left(share, now);
     std::string line = '[' + std::to_string(begun_) + '/' + std::to_string(total_) + ']' +
                        (left > 0 ? " about " + rough(left) + " left:" : "") + ' ' + printable(what);
-    while (character_count(line) >= terminal_width(STDERR_FILENO))
+    while (is_shown_ && character_count(line) >= terminal_width(STDERR_FILENO))
         line.pop_back();
-    std::fprintf(stderr, "%s%s", clear_line, line.c_str());
+    std::fprintf(stderr, is_shown_ ? "%s%s" : "%.0s%s\n", clear_line, line.c_str());
 }
 
 /// Returns 0 if nothing is known.

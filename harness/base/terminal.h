@@ -51,8 +51,8 @@ constexpr const char* clear_line = "\r\033[K";
 /// Takes what is being done, and which share of the current item is done; 0: unknown.
 using Note = std::function<void(const std::string& what, double share)>;
 
-/// A progress line on stderr, no wider than the terminal. Prints nothing unless stderr is a terminal. Once something is done it has
-/// the time to go: the rest of the items takes as long as those before, or as the current one if it is the first.
+/// A progress line on stderr, no wider than the terminal; where stderr is no terminal, a line at most every 30 seconds. Once something is
+/// done it has the time to go: the rest of the items takes as long as those before, or as the current one if it is the first.
 class Progress {
 public:
     explicit Progress(std::size_t total);
@@ -82,7 +82,7 @@ private:
     std::size_t begun_ = 0;
     std::size_t passed_ = 0;  ///< number of those that needed no work
     bool is_shown_;
-    Clock::time_point start_ = Clock::now(), item_start_ = start_, shown_ = {};
+    Clock::time_point start_ = Clock::now(), item_start_ = start_, shown_;
 };
 
 }  // namespace bvhbench

@@ -16,6 +16,10 @@ class Accuracy final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
+        app.add_flag_callback(  // before the options that it sets, which override it
+            "--quick",
+            [this] { task_.pairs = 20'000, task_.samples = 1, task_.scenes = {quick_scene}; },
+            "fewer pairs and samples, and of axes about scenes a small one");
         app.add_option("--axis", axis_, "a name of `list accuracy`; default: all in turn");
         app.add_option("--scene", task_.scenes,
                        "scenes, data sets or mesh files, of axes about scenes; of the axis queries "
@@ -84,7 +88,7 @@ extern const CommandEntry accuracy_command = {
     "Measure run time against error, along an axis at a time, print and draw it",
     "Errors are counted against exact arithmetic on the stored coordinates: how many were missed, "
     "how many were false.",
-    {{"bvhbench accuracy --axis narrow --pairs 1000000",
+    {{"bvhbench accuracy --axis narrow --quick",
       "narrow phases: how often is each wrong, and how fast?"},
      {"bvhbench accuracy --axis boxes --scene bunny --out out/boxes", "boxes in fewer bits"}},
     "docs/accuracy.md",
