@@ -77,8 +77,10 @@ def summary(comparison: Comparison) -> str:
         return (f"{counted(len(verdicts), 'cell')} of {builders[1]} against {builders[0]}: {level}\n"
                 + (f"not of both: {counted(alone, 'cell')}\n" if alone else ""))
     few = sum(is_timed(cell) and not math.isfinite(cell.time.smallest) for cell in comparison.cells)
-    regressions = comparison.regressions
+    regressions, unsure = comparison.regressions, verdicts.count(UNSURE)
+    last = f"{regressions or 'no'} regression{'s' if regressions > 1 else ''}" + (f" found, {counted(unsure, 'cell')} unsure" if unsure else "")
+    if not regressions and unsure == len(verdicts) > 0:
+        last = f"unsure: of {counted(unsure, 'cell')} none has a verdict"
     return (f"{counted(len(verdicts), 'cell')}: {level}{f'; {few} have fewer than {FEWEST_SAMPLES} samples' if few else ''}\n"
             + (f"{counted(comparison.withheld, 'cell')} may have changed, or the warnings are why\n" if comparison.withheld else "")
-            + f"{regressions or 'no'} regression{'s' if regressions > 1 else ''}"
-            + (f" found, {counted(verdicts.count(UNSURE), 'cell')} unsure" if UNSURE in verdicts else "") + "\n")
+            + f"{last}\n")

@@ -29,7 +29,7 @@ def compared(code: int, *words: str, says: str = "") -> str:
 
 def test_a_file_is_the_same_as_itself() -> None:
     measured("a.json")
-    assert "karras" not in compared(0, "a.json", "a.json", says="no regression")  # however unsteady the machine was
+    assert "karras" not in compared(0, "a.json", "a.json", says="unsure: of 3 cells none has a verdict")  # however unsteady the machine was
     assert "karras" in compared(0, "a.json", "a.json", "--all")
 
 

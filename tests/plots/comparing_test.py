@@ -122,6 +122,8 @@ class Times(unittest.TestCase):
     def test_of_fewer_than_nine_samples_are_unsure(self) -> None:
         for samples, expected in ((8, UNSURE), (9, SLOWER)):
             self.assertEqual(verdicts(document(cell(samples=samples)), document(cell(median_ns=3e6, samples=samples))), [expected])
+        self.assertEqual(comparison_text.text(compared(document(cell(samples=8)), document(cell()))).splitlines()[-1],
+                         "unsure: of 1 cell none has a verdict")
         self.assertIn("1 have fewer than 9 samples", comparison_text.text(compared(document(cell(samples=8)), document(cell()))))
         self.assertNotIn("bunny", comparison_text.text(compared(document(cell(samples=0)), document(cell())), show_all=True))
 
