@@ -121,8 +121,10 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
 {
     const std::filesystem::path path = located(entry, library.data);
     if (path.empty())
-        throw Unavailable("data set '" + entry.name + "' is not in the data folder " +
-                          in_quotes(library.data.string()) + ": " + entry.source);
+        throw Unavailable("data set '" + entry.name + "' is not there: " +
+                          (library.data.empty() ? "neither --data nor BVHBENCH_DATA names a folder"
+                                                : "not in " + in_quotes(library.data.string())) +
+                          "; " + entry.source);
     Scene scene = from_path(path, library);
     expect(entry, scene, "triangles", entry.triangles, scene.faces.size());
     expect(entry, scene, "vertices", entry.vertices, scene.frames.front().size());

@@ -3,6 +3,7 @@ import math
 
 from ..read import results
 from ..read.cells import Cell, quantiles
+from ..read.crossing import crossing
 from ..words.tables import Table, size, whole
 from . import spread
 
@@ -17,6 +18,8 @@ def table1(run: results.Run) -> str:
     for cell in run.all_cells:
         mesh = cell.stand_in_for or cell.scene
         row, nodes = rows.get((mesh, cell.builder)), int(cell.counters.get("nodes_count", 0))
+        if cell.status == "skipped" and not row:  # the paper does not have the mesh, and neither has this machine
+            continue
         table.row(mesh + (" *" if cell.stand_in_for else ""), f"{cell.triangles:,}", cell.builder, whole(nodes or None),
                   padding_text(padding_percent(cell)) if nodes else "", row["padding_percent"] if row else "",
                   *time_columns(cell, run.copy_rate_of(cell)), f"{row['hierarchy_ms']:.3f}" if row else "")
@@ -38,8 +41,9 @@ def fig8(run: results.Run) -> str:
 
 def crossing_text(cells: list[Cell], single: str) -> str:
     """Returns a sentence on where oibvh-multi overtakes the builder `single`."""
-    if crossing := crossing_triangles(cells, single):
-        return f"oibvh-multi is faster than {single} from {crossing:,} triangles on; in the paper, from about 131,072\n"
+    of_both = ({cell.triangles: ns for cell in cells if cell.builder == name and (ns := hierarchy_ns(cell))} for name in (single, "oibvh-multi"))
+    if size := crossing(*of_both):
+        return f"oibvh-multi is faster than {single} from about {size:,.0f} triangles on; in the paper, from about 131,072\n"
     return f"{single} and oibvh-multi do not cross here; in the paper they do at about 131,072 triangles\n"
 
 
@@ -83,20 +87,3 @@ def padding_text(percent: float) -> str:
         return f"{percent:.2f}"
     exponent = math.floor(math.log10(percent))
     return f"{math.floor(percent / 10 ** (exponent - 1) + 1e-9) / 10:.1f}e{exponent}"
-
-
-def crossing_triangles(cells: list[Cell], single: str) -> int | None:
-    """Returns the size from which oibvh-multi is no slower than the builder `single`, if it was slower at a smaller size."""
-    times: dict[int, dict[str, float]] = {}
-    for cell in cells:
-        if ns := hierarchy_ns(cell):
-            times.setdefault(cell.triangles, {})[cell.builder] = ns
-    crossing, was_slower = None, False
-    for triangles, by_builder in sorted(times.items()):
-        if not {single, "oibvh-multi"} <= by_builder.keys():
-            continue
-        if by_builder["oibvh-multi"] > by_builder[single]:
-            crossing, was_slower = None, True
-        elif crossing is None:
-            crossing = triangles
-    return crossing if was_slower else None

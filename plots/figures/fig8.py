@@ -3,7 +3,6 @@
 Medians, with a band from the 10th to the 90th percentile. Marked is the size from which on the multi-kernel
 construction stays ahead of the single-kernel one, beside the size the paper gives for its machine.
 """
-import itertools
 import math
 
 import matplotlib.pyplot as plt
@@ -11,6 +10,7 @@ import numpy
 
 from ..draw import figure, style
 from ..read import results
+from ..read.crossing import crossing
 
 STAGE = "hierarchy"
 Curve = list[tuple[int, results.Quantiles, float]]  # triangles, seconds, nodes; by size
@@ -20,21 +20,6 @@ def curve(cells: list[results.Cell]) -> Curve:
     points = [(cell.triangles, results.quantiles(cell.times_s(STAGE)), cell.counters["nodes_count"])
               for cell in cells]
     return sorted(points, key=lambda point: point[0])
-
-
-def crossing(single: Curve, multi: Curve) -> float | None:
-    """Returns the number of triangles from which `multi` is faster at all larger measured sizes, interpolated between sizes.
-
-    Returns None if `multi` is not faster at the largest size, or is faster at every size, so that there is no crossing."""
-    other = {triangles: seconds.median for triangles, seconds, _ in multi}
-    ahead = [(math.log2(triangles), math.log(seconds.median / other[triangles]))
-             for triangles, seconds, _ in single if triangles in other]
-    for (x0, lead0), (x1, lead1) in reversed(list(itertools.pairwise(ahead))):
-        if lead1 <= 0:
-            return None
-        if lead0 <= 0:
-            return 2 ** (x0 + (x1 - x0) * -lead0 / (lead1 - lead0))
-    return None
 
 
 def mark_crossing(axes: plt.Axes, triangles: float, text: str, line: str, side: str) -> None:
@@ -52,7 +37,7 @@ def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None
     ours = None
     single = next((name for name in ("oibvh-single-printed", "oibvh-single") if name in first), None)  # the paper's where it is there
     if single and "oibvh-multi" in first:
-        ours = crossing(first[single], first["oibvh-multi"])
+        ours = crossing(*({size: seconds.median for size, seconds, _ in first[name]} for name in (single, "oibvh-multi")))
     sizes = [triangles for points in curves.values() for triangles, _, _ in points]
     middle = math.sqrt(min(sizes) * max(sizes))
     texts = [f"paper: multi ahead\nfrom $2^{{{math.log2(paper):.0f}}}$ ({results.printed_device('fig8')})",

@@ -1,6 +1,6 @@
-"""Table 1 as bars: what one hierarchy takes once the triangles are sorted, per mesh and builder.
+"""Table 1: what one hierarchy takes once the triangles are sorted, per mesh and builder.
 
-Above: median time, whiskers from the 10th to the 90th percentile, and the paper's printed times, which are another
+Above: median time on a logarithmic axis, whiskers from the 10th to the 90th percentile, and the paper's printed times, which are another
 machine's. Below it: triangles per second, and how near the builder comes to a plain copy of the bytes it must move,
 measured in the same run.
 """
@@ -53,7 +53,7 @@ class Bars:
         dress = {"width": 0.9 * self.width, "color": look.colour, "hatch": look.hatch, "edgecolor": "white", "linewidth": 0}
         seconds = results.quantiles(cell.times_s(STAGE))
         spread = [[1e3 * (seconds.median - seconds.p10)], [1e3 * (seconds.p90 - seconds.median)]]
-        self.time.bar(x, 1e3 * seconds.median, **dress)
+        self.time.plot(x, 1e3 * seconds.median, look.marker, color=look.colour)
         self.time.errorbar(x, 1e3 * seconds.median, yerr=spread, color="#222222", elinewidth=0.7, capsize=1.2,
                            capthick=0.7)
         million = 1e-6 * cell.triangles / seconds.median
@@ -65,7 +65,11 @@ class Bars:
             self.time.plot(x, printed, zorder=4, **style.PAPER_MARK)
         moved = cell.moved_bytes(STAGE)
         if moved and self.copy_rate:
-            self.rate.bar(x, 100 * moved / seconds.median / self.copy_rate, **dress)
+            share = tables.of_copy_rate(moved / seconds.median / self.copy_rate)
+            if share == tables.IN_CACHE:
+                self.rate.text(x, 2, share, rotation=90, ha="center", va="bottom", fontsize=style.SMALL, color="#777777")
+            else:
+                self.rate.bar(x, 100 * share, **dress)
 
     def scale(self, cells: list[results.Cell]) -> None:
         """Sets a logarithmic axis of times that holds all values, measured and printed, and room for numbers above the
@@ -89,7 +93,7 @@ class Bars:
         self.time.set(yscale="log", ylabel="hierarchy, ms")
         self.scale(cells)
         self.rate.set(ylabel="% of copy rate")
-        self.rate.set_ylim(0, max(100, self.rate.get_ylim()[1]))
+        self.rate.set_ylim(0, 100)
         looks = [(series, style.look_in(series, self.series)) for series in self.series]
         handles = [Patch(facecolor=look.colour, edgecolor="white", linewidth=0, hatch=look.hatch,
                          label=style.label(series, self.series)) for series, look in looks]

@@ -13,6 +13,7 @@ from plots.figures import catalog, fig8, frame_bars, overview, roofline, scaling
 from plots.files import output
 from plots.read import results
 from plots.read.cells import Cell
+from plots.read.crossing import crossing
 from plots.words import names, tables
 from PIL import Image
 from plots.draw.style import plt
@@ -332,19 +333,30 @@ class Reader(InFolder):
         self.assertEqual(found, results.Quantiles(10.0, 50.0, 90.0))
 
 
+class Table1(Drawn):
+    def test_has_no_bar_on_a_logarithmic_axis_and_says_in_cache_where_the_table_does(self) -> None:
+        for cell in self.document["cells"]:
+            for sample in cell.get("samples", []) if cell["builder"]["name"] == "apetrei" else ():
+                sample["stages"][0]["moved_bytes"] = 10**12
+        time, _, rate = table1.draw(results.load(self.written(self.document))).axes
+        self.assertEqual((time.get_yscale(), list(time.patches)), ("log", []))
+        meshes = {cell["scene"]["name"] for cell in self.document["cells"] if cell["builder"]["name"] == "apetrei" and cell.get("samples")}
+        self.assertEqual([text.get_text() for text in rate.texts], len(meshes) * [tables.IN_CACHE])
+
+
 class Crossing(unittest.TestCase):
     @staticmethod
-    def curve(times: list[float]) -> fig8.Curve:
-        return [(2 ** (10 + i), results.Quantiles(t, t, t), 1.0) for i, t in enumerate(times)]
+    def curve(times: list[float]) -> dict[int, float]:
+        return {2 ** (10 + i): t for i, t in enumerate(times)}
 
     def test_lies_where_the_multi_kernel_construction_stays_ahead(self) -> None:
-        found = fig8.crossing(self.curve([1, 3, 1, 2, 4]), self.curve([2, 2, 2, 1, 1]))
+        found = crossing(self.curve([1, 3, 1, 2, 4]), self.curve([2, 2, 2, 1, 1]))
         self.assertAlmostEqual(found, 2**12.5)  # not where it first leads, since it falls behind again
 
     def test_is_none_when_nothing_crosses(self) -> None:
         slow, fast = self.curve([2, 2, 2]), self.curve([1, 1, 1])
-        self.assertIsNone(fig8.crossing(slow, fast))
-        self.assertIsNone(fig8.crossing(fast, slow))
+        self.assertIsNone(crossing(slow, fast))
+        self.assertIsNone(crossing(fast, slow))
 
 
 class Throughput(InFolder):

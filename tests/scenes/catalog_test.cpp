@@ -103,7 +103,7 @@ TEST_F(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
 
 TEST_F(DataSets, ThatAreNotThereSayWhereToGetThem)
 {
-    EXPECT_TRUE(refuses("erato", "Unavailable: data set 'erato' is not in the data folder ''"));
+    EXPECT_TRUE(refuses("erato", "Unavailable: data set 'erato' is not there: neither --data nor"));
     EXPECT_TRUE(refuses("erato", "https://casual-effects.com/data/"));
     EXPECT_THROW(load_or_stand_in("unc_nbody", {}), Unavailable);
 }
