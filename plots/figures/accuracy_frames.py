@@ -57,11 +57,14 @@ def label_of(height: float) -> str:
 
 
 def draw_scene(axes: plt.Axes, settings: list[Setting]) -> None:
-    axes.axhspan(-NONE, NONE, color="#EEEEEE", linewidth=0, zorder=0)
+    axes.axhspan(-NONE, NONE, color="#EEEEEE", linewidth=0, zorder=1)  # above the lines of the grid
     places = heights(settings)
     for setting in settings:
         seen, low, middle, high = look("frames", setting.method), *setting.time
-        for height in places[setting.method]:
+        ends = places[setting.method]
+        span, line = ((-NONE, NONE), "-") if abs(ends[0]) < NONE else ((min(ends), max(ends)), ":")
+        axes.vlines(middle, *span, color=seen.colour, linewidth=0.6, linestyle=line, zorder=2)
+        for height in ends:
             axes.errorbar(middle, height, xerr=[[middle - low], [high - middle]], color=seen.colour, marker=seen.marker,
                           markerfacecolor="white", elinewidth=0.8, zorder=3, **MARK)
     low, high = min(one.time.p10 for one in settings) / 1.2, max(one.time.p90 for one in settings) * 1.2
@@ -118,7 +121,8 @@ def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     starred = any(pipelines.stands_in(group[0]) for group in scenes.values())
     figure.footer(drawing, run, "accuracy", (
         "Whole frames, from vertices to contacts, of all frames together; against CGAL's contacts of the vertices as given. Left is faster; "
-        "up are false contacts, down are missed ones, and in the grey band are settings without either.",
+        "up are false contacts, down are missed ones; a dotted line joins both of one setting. In the grey band are settings without "
+        "either: height means nothing there, and their lines cross all of it.",
         "Times: the mean over frames of the medians, whiskers from the 10th to the 90th percentile.",
         *(["* was not there: the scene in brackets stands in."] if starred else [])))
     return drawing

@@ -99,6 +99,9 @@ class Figures(InFolder):
         points = sorted(point for line in scenes[0].lines if line.get_marker() not in ("None", "|", "")
                         for point in line.get_ydata())
         self.assertEqual(points, sorted(height for those in heights.values() for height in those))
+        joins = sorted(tuple(line.get_segments()[0][:, 1]) for line in scenes[0].collections if line.get_linewidth()[0] == 0.6)
+        band = 2 * [(-accuracy_frames.NONE, accuracy_frames.NONE)]  # of those without wrong contacts: no height
+        self.assertEqual(joins, sorted(band + [(min(those), max(those)) for those in heights.values() if abs(those[0]) > accuracy_frames.NONE]))
         low, high = scenes[0].get_ylim()
         self.assertTrue(low < points[0] and points[-1] < high, (low, high, points))
         texts = [text.get_text() for one in legend.get_children() if isinstance(one, Legend) for text in one.get_texts()]
