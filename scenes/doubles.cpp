@@ -112,23 +112,22 @@ std::string rounding_text(const Rounding& rounding)
 {
     if (!rounding.how)
         return "floats hold all coordinates";
-    std::string text = "doubles, rounded to floats as they are";
     std::array<char, 200> part{};
+    const double digit = std::pow(10, std::floor(std::log10(rounding.largest_error)));
+    std::snprintf(
+        part.data(), part.size(), "%.1g",
+        rounding.largest_error > 0 ? digit * std::ceil(rounding.largest_error / digit) : 0);
+    std::string text =
+        "coordinates moved by at most " + std::string(part.data()) + ": doubles, as floats";
     if (*rounding.how != Doubles::as_is) {
-        const WidePoint offset = rounding.offset;
-        const bool is_kept = *rounding.how == Doubles::kept;
-        text = is_kept ? "doubles, kept for steps between frames" : "doubles";
-        std::snprintf(part.data(), part.size(), ", %s by (%.17g, %.17g, %.17g)",
-                      is_kept ? "moved exactly" : "recentred", offset.x, offset.y, offset.z);
-        if (!is_kept || offset.x != 0 || offset.y != 0 || offset.z != 0)
-            text += part.data();
+        const auto& [x, y, z] = rounding.offset;
+        std::snprintf(part.data(), part.size(), " around (%.3g, %.3g, %.3g)", x, y, z);
+        text += part.data();
         if (rounding.scale_log2 != 0)
             text += ", scaled by 2^" + std::to_string(rounding.scale_log2);
-        text += is_kept ? ", and rounded to floats for all else" : " and rounded to floats";
+        text += *rounding.how == Doubles::kept ? ", and kept for steps between frames" : "";
     }
-    std::snprintf(part.data(), part.size(), "%.3g", rounding.largest_error);
-    return text + ": " + std::to_string(rounding.rounded_count) + " coordinates are off, by " +
-           part.data() + " at most";
+    return text;
 }
 
 Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,

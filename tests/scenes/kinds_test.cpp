@@ -159,7 +159,7 @@ TEST_F(Gltf, OfNodesFarAwayIsRecentredInDoubles)
                         tetrahedra(std::string(R"({"mesh": 0, "translation": [)") + first +
                                    R"(]}, {"mesh": 0, "translation": [)" + second + "]}")),
             library);
-        EXPECT_TRUE(contains(library.told, "doubles, recentred by ("));
+        EXPECT_TRUE(contains(library.told, "doubles, as floats around ("));
         EXPECT_LT(scene.rounding.largest_error, 1e-7);
         return double{scene.frames[0][4].y} -
                scene.frames[0][2].y;  // from corner to origin, along y
