@@ -3,7 +3,6 @@ from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
 import numpy
-from matplotlib.colors import to_rgb
 
 from ..read import results
 from ..words import names
@@ -14,8 +13,8 @@ LONGEST_TITLE = 64  # letters, above a panel and not above its labels
 COUNTED = " †"  # marks a pipeline whose wrong contacts were counted
 WRONG = ("missed_count", "false_count", "contacts_count")
 
-# The hatch of each collider, for pipelines that share a builder's colour. A collider without a tree has its own colour.
-HATCHES = {"leaf": "", "group": "////", "block": "\\\\\\\\", "bvtt": "....", "front": "xxxx", "front-leaf": "++++", "embree-refit": "////", "fcl-refit": "////"}
+# The marker of each collider, for pipelines that share a builder's colour. A collider without a tree has its own colour.
+MARKERS = {"leaf": "o", "group": "s", "block": "D", "bvtt": "^", "front": "v", "front-leaf": "<", "embree-refit": "s", "fcl-refit": "s"}
 COLOURS = {"grid": "#8C510A", "all-pairs": "#762A83", "sort-sweep": "#BF812D", "embree": "#009E73", "embree-refit": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
 
 
@@ -60,8 +59,8 @@ class Pipeline:
         return COLOURS.get(collider) or style.look(collider if collider in names.OUTSIDE else self.first.builder).colour
 
     @property
-    def hatch(self) -> str:
-        return HATCHES.get(self.first.collider or "", "")
+    def marker(self) -> str:
+        return MARKERS.get(self.first.collider or "", "P")
 
     def frame_ms(self) -> numpy.ndarray:
         """Returns the median time of each frame, in milliseconds."""
@@ -155,11 +154,10 @@ def dress_rows(axes: plt.Axes, rows: list[str], room: float = 0) -> None:
     axes.tick_params(axis="y", length=0)
 
 
-def bar(axes: plt.Axes, row: int, width: float, pipeline: Pipeline) -> None:
-    """Draws a bar in the pipeline's colour and hatch. The hatch is lighter or darker than the colour."""
-    ink = "white" if sum(to_rgb(pipeline.colour)) < 1.6 else "#555555"
-    axes.barh(row, width, 0.72, color=pipeline.colour, hatch=pipeline.hatch, edgecolor=ink, linewidth=0)
+def mark(axes: plt.Axes, row: int, value: float, pipeline: Pipeline) -> None:
+    """Marks a value on a logarithmic axis, on which a bar's length would mean nothing."""
+    axes.plot(value, row, pipeline.marker, color=pipeline.colour, markeredgecolor="#333333", markeredgewidth=0.4, markersize=5, zorder=3)
 
 
-def told(axes: plt.Axes, row: int, end: float, text: str, room: int = 3) -> None:
+def told(axes: plt.Axes, row: int, end: float, text: str, room: int = 5) -> None:
     axes.annotate(f" {text}", (end, row), (room, 0), textcoords="offset points", va="center", fontsize=style.SMALL)

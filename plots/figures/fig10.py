@@ -18,7 +18,7 @@ def draw(run: results.Run) -> plt.Figure:
         for row, pipeline in enumerate(shown):
             peak, pairs = pipeline.later.mean("bvtt_peak_count"), pipeline.later.mean("pairs_count")
             values.append(peak)
-            pipelines.bar(axes, row, peak, pipeline)
+            pipelines.mark(axes, row, peak, pipeline)
             pipelines.told(axes, row, peak, f"{peak:,.0f} for {pairs:,.0f} pairs")
         pipelines.dress(axes, shown)
     panels[-1].set(xscale="log", xlim=(min(values) / 3, max(values) * 40), xlabel="node pairs waiting at once, at most")

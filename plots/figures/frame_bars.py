@@ -58,7 +58,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
     firsts = [one.first_ms for one in shown]
     shown = [one.later for one in shown]
     wholes = [float(pipeline.frame_ms().mean()) for pipeline in shown]
-    limit = MOST * min(wholes)
+    limit = MOST * min(wholes) if max(wholes) > 1.5 * MOST * min(wholes) else max(wholes)  # cutting off less helps nobody
     end = max(min(whole, limit) for whole in wholes)
     for row, (pipeline, whole, first) in enumerate(zip(shown, wholes, firsts, strict=True)):
         text = f"{tables.three_digits(whole)} ms" + (f", first {tables.three_digits(first)}" if first is not None else "")

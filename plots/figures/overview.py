@@ -38,8 +38,8 @@ def draw(run: results.Run) -> figure.plt.Figure:
         draw_panel(axes, *key, bars[:MOST_BARS])
         left_out += [f"{key[1]}: {len(bars) - MOST_BARS} slower ones not drawn."] if len(bars) > MOST_BARS else []
     clock = " by the wall clock" if is_by_wall(cell for _, bars in panels for _, _, cell in bars) else ""
-    grid.flat[-1].set_xlabel(f"milliseconds{clock}, median of the samples; of several frames the mean of those after the first")
-    figure.footer(drawing, run, panels[0][0][0], tuple(left_out))
+    grid.flat[-1].set_xlabel(f"milliseconds{clock}")
+    figure.footer(drawing, run, panels[0][0][0], ("Medians of the samples; of several frames the mean of those after the first.", *left_out))
     return drawing
 
 

@@ -16,19 +16,6 @@ from ..words import names
 
 COLUMNS = 4
 
-# Colliders over one tree share its builder's colour, so these have their own: Okabe and Ito's, with other markers.
-COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", "P"),
-             "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"), "block": style.Look("#56B4E9", "P"),
-             "grid": style.Look(pipelines.COLOURS["grid"], "d")}
-
-
-def look_of_collider(name: str) -> style.Look:
-    if name in names.OUTSIDE:
-        return style.look(name)
-    if name not in COLLIDERS:
-        raise results.Refused(f"plots/figures/roofline.py has no look for the collider '{name}'")
-    return COLLIDERS[name]
-
 
 class Line(NamedTuple):
     label: str
@@ -62,16 +49,16 @@ def build_lines(run: results.Run, stage: str) -> list[Line]:
 
 
 def query_lines(run: results.Run, stage: str) -> list[Line]:
-    """Returns one line for each collider and tree. Over a second and further tree a collider has a look of its own."""
+    """Returns one line for each collider and tree. Colliders over one tree share its builder's colour, so these have variants' looks, from the
+    last on: builds have the first."""
     groups = pipelines.grouped_by_pipeline(run.all_frames("roofline"))
     trees = {style.series_of(cells[0]) for cells in groups if cells[0].builder != "none"}
-    among = [(cells[0].collider, cells[0].called) for cells in groups]
     lines = []
-    for cells, series in zip(groups, among, strict=True):
+    for place, cells in enumerate(groups, 1):
         first = cells[0]
         alone = len(trees) == 1 or first.builder == "none"
         label = names.variant(first.collider, dict(first.collider_options)) if alone else first.called
-        lines.append(Line(label, style.look_in(series, among, look_of_collider), points(run, cells, stage)))
+        lines.append(Line(label, style.VARIANT_LOOKS[-place % len(style.VARIANT_LOOKS)], points(run, cells, stage)))
     return [line for line in lines if line.points]
 
 
@@ -82,7 +69,7 @@ def draw_panel(axes: plt.Axes, stage: str, lines: list[Line], sizes: list[int]) 
                     label=line.label)
     axes.set_title(stage, loc="left")
     figure.powers_of_two(axes, figure.step_between(sizes), 9)
-    axes.set(yscale="log", xlabel="triangles")
+    axes.set(yscale="log", xlabel="triangles", xlim=(min(sizes) / 1.4, max(sizes) * 1.4))
 
 
 def scale(panels: list[plt.Axes]) -> None:

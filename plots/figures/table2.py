@@ -1,4 +1,4 @@
-"""Tables 2 and 3 as bars: milliseconds a frame, from vertices to exact contacts, of each scene by each pipeline."""
+"""Tables 2 and 3 as points: milliseconds a frame, from vertices to exact contacts, of each scene by each pipeline."""
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 
@@ -14,7 +14,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline], printed: list[di
     for row, pipeline in enumerate(shown):
         times, first = pipeline.later.frame_ms(), pipeline.first_ms
         mean = float(times.mean())
-        pipelines.bar(axes, row, mean, pipeline)
+        pipelines.mark(axes, row, mean, pipeline)
         if len(times) > 1:
             axes.plot([times.min(), times.max()], [row, row], color="black", linewidth=0.8)
         if first is not None:
@@ -47,7 +47,7 @@ def draw(run: results.Run, table: str = "table2") -> plt.Figure:
                for method in methods]
     height = figure.legend_above(drawing, handles) if handles else 0
     figure.footer(drawing, run, table,
-                  ("A frame is all from moved vertices to exact contacts: boxes, order, trees, pairs, contacts. Bars are means "
+                  ("A frame is all from moved vertices to exact contacts: boxes, order, trees, pairs, contacts. Points are means "
                    f"of medians, {pipelines.apart(scenes)}. Lines reach from the fastest of these frames to the slowest. The first "
                    "of several frames is a stroke across, and in the text.",
                    "Memory is all that a pipeline reserves on the device.", *pipelines.remarks(scenes)), height)

@@ -1,4 +1,4 @@
-"""Table 4 as bars: the surface area cost of the radix tree and of the Oi-BVH over the same leaves, per mesh.
+"""Table 4 as points: the surface area cost of the radix tree and of the Oi-BVH over the same leaves, per mesh.
 
 Over each pair stands how many times the one is the other. The paper's printed costs are marked; a cost has no
 machine, so they can be compared with ours wherever the mesh is the same. They are left out for other costs of a
@@ -6,7 +6,6 @@ node and a triangle than the usual ones.
 """
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from ..draw import figure, style
 from ..read import results
@@ -32,7 +31,7 @@ def title(cell: results.Cell, printed: dict) -> str:
 
 
 def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) -> set[str]:
-    """Draws the bars of one mesh and returns the builders shown."""
+    """Draws the points of one mesh and returns the builders shown."""
     scene = cells[0].stand_in_for or cells[0].scene
     model = printed["other_editions"].get(scene, scene)
     paper = {row["builder"]: row["sah_cost"] for row in printed["rows"] if row["scene"] == model}
@@ -43,9 +42,8 @@ def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) 
             axes.plot(place, paper[name], zorder=4, **style.PAPER_MARK)
         if found := cost_of(cells, builders):
             builder, cost = found
-            axes.bar(place, cost, 0.9 * WIDTH, color=style.look(builder).colour, linewidth=0)
-            axes.text(place, 0.02, f"{cost:,.2f}" if cost < 1000 else f"{cost:,.0f}", transform=axes.get_xaxis_transform(), ha="center", va="bottom",
-                      fontsize=7, color=style.ink_on(style.look(builder).colour))
+            axes.plot(place, cost, style.look(builder).marker, color=style.look(builder).colour, markersize=7)
+            axes.text(place, 0.02, f"{cost:,.2f}" if cost < 1000 else f"{cost:,.0f}", transform=axes.get_xaxis_transform(), ha="center", va="bottom", fontsize=7)
             shown.add(builder)
             costs.append(cost)
     if len(costs) == 2:
@@ -58,7 +56,7 @@ def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) 
 
 
 def scale(axes: plt.Axes, cells: list[results.Cell], printed: dict) -> None:
-    """Sets a logarithmic axis with room for the numbers below and above the bars."""
+    """Sets a logarithmic axis with room for the numbers below and above the points."""
     values = [cell.counters["sah_cost"] for cell in cells] + [row["sah_cost"] for row in printed["rows"]]
     low, high = min(values), max(values)
     axes.set_yscale("log")
@@ -83,9 +81,9 @@ def draw(run: results.Run) -> plt.Figure:
     scale(axes, cells, printed)
     axes.tick_params(axis="x", length=0)
     axes.set(ylabel="surface area cost")
-    handles = [Patch(facecolor=style.look(builder).colour, label=builder) for builder in style.LOOKS
-               if builder in shown]
-    if printed["rows"]:
+    handles = [Line2D([], [], color=style.look(builder).colour, marker=style.look(builder).marker, markersize=7, linestyle="none", label=builder)
+               for builder in style.LOOKS if builder in shown]
+    if any(line.get_marker() == style.PAPER_MARK["marker"] for line in axes.lines):
         handles.append(Line2D([], [], **style.PAPER_MARK, label="printed in the paper"))
     height = figure.legend_above(drawing, handles)
     remarks = [f"{run.costs_remark()} Under the names: triangles."]
