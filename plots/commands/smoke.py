@@ -92,7 +92,7 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
         run = results.everything(file)
         if out and file != out:
             output.write(out, pathlib.Path(file).read_bytes())
-    print(run_page.text(run), cells_page.text(run, lambda cell: False), sep="", end="")
+    print(run_page.text(run), cells_page.text(run, only_wrong=True), sep="", end="")
     return run, code
 
 

@@ -12,12 +12,12 @@ from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
 
 from ..draw import figure, labels, style
-from ..read import pareto, results
+from ..program import child
+from ..read import families, pareto, results
 from ..words import names
 
 COLUMNS = 2
 MEASURES = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query"}
-ALONG_A_CURVE = ("oibvh", "perfect", "apetrei", "karras", "lbvh", "radix")
 PANEL_HEIGHT = 2.2  # inches
 HOST_WIDTH = 0.42  # width of a host panel, relative to the panel beside it
 Point = tuple[float, float, results.Cell]  # milliseconds, measure
@@ -29,10 +29,12 @@ def points_of(cells: list[results.Cell], measure: str = "sah_cost") -> list[Poin
 
 
 def order_of(cell: results.Cell) -> str | None:
-    """Returns the order of a cell, or None for builders that do not sort along a curve and ignore the option."""
-    if not cell.builder.startswith(ALONG_A_CURVE):
-        return None
-    return dict(cell.options).get("order", "morton30")
+    """Returns the order of a cell, or None for builders that ignore the option."""
+    return dict(cell.options).get("order", "morton30") if cell.builder in child.builders_of_any_order() else None
+
+
+def is_wide(cell: results.Cell) -> bool:
+    return families.of_builder(cell.builder) == "wide trees"
 
 
 def scale(axis: Axis, values: list[float], most: int) -> None:
@@ -70,7 +72,7 @@ class Panels:
     def draw(self, pair: list[plt.Axes], cells: list[results.Cell], measure: str, is_first: bool) -> list[plt.Axes]:
         """Draws one scene and measure; returns the axes that show something."""
         points = points_of(cells, measure)
-        best = pareto.front(points)
+        best = pareto.front([one for one in points if measure != "sah_cost" or not is_wide(one[2])])
         used = []
         for axes, on_host in zip(pair, (False, True)):
             here = [point for point in points if point[2].on_host == on_host]
@@ -121,6 +123,8 @@ def draw(run: results.Run) -> plt.Figure:
     height = legend(panels.figure, cells, orders)
     remark = ("Numbers are orders, the same in all figures. Down and left is better. Filled, joined: no other is as good in "
               "both. Times: medians.")
+    if any(map(is_wide, cells)):
+        remark += " A visit of a wide node tests several boxes and counts once: such costs are not comparable, and on no front."
     figure.footer(panels.figure, run, cells[0].experiment, (remark, run.costs_remark()), height)
     panels.number(orders)
     return panels.figure

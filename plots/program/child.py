@@ -1,5 +1,6 @@
 """Runs the measuring program as a child process. It reports on standard error and ends when this process ends it."""
 import contextlib
+import functools
 import json
 import os
 import subprocess
@@ -81,6 +82,12 @@ def answer(words: list[str], given: bytes | None = None) -> Any:
 def facts(words: list[str]) -> dict[str, Any]:
     """Returns the facts of a run that would start now, as in result files: device, host and program."""
     return answer(["facts", *words])["run"]
+
+
+@functools.cache
+def builders_of_any_order() -> frozenset[str]:
+    """Returns the builders that order leaves as --order says, from the program's catalog."""
+    return frozenset(name for name, order, _ in answer(["list", "builders", "--json"]) if order == "any order")
 
 
 def expanded(experiments: list[dict[str, Any]], words: list[str]) -> list[dict[str, Any]]:

@@ -90,6 +90,15 @@ class Figure(InFolder):
         for line in device.lines:
             self.assertTrue(all(low < y < high for y in line.get_ydata()))
 
+    def test_numbers_builders_that_sort_and_has_no_wide_one_on_the_front(self) -> None:
+        run = self.many(with_tests=False)
+        for cell in run.cells:
+            cell.builder = {"apetrei-fused": "hploc", "oibvh-multi": "oibvh-wide8"}.get(cell.builder, cell.builder)
+        device = pareto_orders.draw(run).axes[0]
+        self.assertEqual(len(device.texts), 28)
+        wide = [line for line in device.lines if line.get_marker() == style.look("oibvh-wide8").marker]
+        self.assertEqual([(len(wide), line.get_markerfacecolor()) for line in wide], 14 * [(14, "white")])
+
     def test_numbers_an_order_alike_in_all_files(self) -> None:
         catalog = (ROOT / "builders" / "orders.cpp").read_text(encoding="utf-8")
         self.assertEqual(tuple(re.findall(r'^    \{"([^"]+)", ', catalog, re.MULTILINE)), names.ORDERS)

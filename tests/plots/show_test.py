@@ -110,6 +110,18 @@ class OfCells(unittest.TestCase):
         self.assertEqual(len(cells.text(run_of(*many)).splitlines()), 3)
         self.assertEqual(len(cells.text(run_of(*many[:20])).splitlines()), 22)
 
+    def test_of_many_builds_each_builder_has_a_line_relative_to_the_best_of_a_scene(self) -> None:
+        costs = {"oibvh-multi": (20, 200), "oibvh-wide8": (10, 25), "karras": (10, 100)}
+        built = [cell(name) for name in costs for _ in (0, 1)]
+        for place, one in enumerate(built):
+            one["scene"]["name"], one["counters"]["sah_cost"] = f"s{place % 2}", costs[one["builder"]["name"]][place % 2]
+        lines = cells.text(run_of(*17 * built)).splitlines()
+        self.assertEqual([line.split() for line in lines[1:4]], [["oibvh-multi", "34", "4.00", "1.00"], ["oibvh-wide8", "34", "1.00°", "1.00"],
+                                                                 ["karras", "34", "2.00", "1.00"]])
+        self.assertIn("not comparable", lines[5])
+        self.assertEqual([line.split()[3] for line in cells.text(run_of(*built)).splitlines()[1:4]], ["20.00", "200.00", "10.00°"])
+        self.assertEqual(cells.text(run_of(*17 * built), only_wrong=True).splitlines()[-1], "102 cells, 102 agree")
+
     def test_frames_have_a_table_of_their_own_unless_they_are_wrong(self) -> None:
         self.assertEqual(len(cells.text(run_of(cell(), frame())).splitlines()), 3)
         self.assertIn("group over oibvh-multi", cells.text(run_of(cell(), wrong(frame()))))
