@@ -37,6 +37,7 @@ def parser() -> command.Parser:
         add(f"--{name}", help=f"a name of `list {name}s`")
     add("--partition", choices=("rcb", "curve"), help="rcb or curve; default: rcb, and both for halo")
     add("--samples", type=int, help="timed frames a cell; default: 20, and for halo 3, of its largest part")
+    add("--share-devices", action="store_true", help="let ranks share a device; for a try on one, gives no times")
     add("--quick", action="store_true", help=f"scenes of one {QUICK}th of the size")
     return words
 
@@ -75,6 +76,7 @@ def plan_of(arguments: argparse.Namespace) -> Json:
     """Returns the plan for `run`: a part for each cell."""
     samples = arguments.samples if arguments.samples is not None else 3 if arguments.experiment == "halo" else 20
     asked = {name: value for name in PIPELINE if (value := getattr(arguments, name)) is not None} | {"samples": samples}
+    asked |= {"share_devices": True} if arguments.share_devices and arguments.experiment != "halo" else {}
     return {"experiment": arguments.experiment,
             "parts": [{"label": label_of(cluster), "clusters": [cluster | asked]} for cluster in clusters_of(arguments)]}
 

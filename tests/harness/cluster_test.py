@@ -223,6 +223,8 @@ def test_experiments_write_one_file():
     assert [(one["ranks_count"], one["status"]) for one in runs] == [(1, "measured"), (2, "failed")], runs
     assert "2 ranks on " in runs[1]["reason"] and "need a device each, and one matches" in runs[1]["reason"], runs[1]
     assert runs[0]["frame_ns"] > 0 and runs[0]["scene"]["triangles"] >= 2000
+    expect(0, "scale", "strong", "--share-devices", "--scene", "torus:2000", "--ranks", "2", "--samples", "2", "--out", "shared.json")
+    assert not results("shared.json")[0].get("frame_ns") and "its ranks shared a device" in run("plot", "shared.json").stderr
     expect(0, "scale", "halo", "--quick", "--ranks", "2", "--builder", "karras", "--out", "halo.json")
     shares = {(one["partition"], one["boxes_count"]): one["halo_share"] for one in results("halo.json")}
     assert set(shares) == {("rcb", 1), ("rcb", 64), ("curve", 1), ("curve", 64)} and min(shares.values()) > 0, shares
