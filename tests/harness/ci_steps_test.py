@@ -24,9 +24,9 @@ esac
 """
 
 
-def steps() -> list[str]:
-    """Returns the scripts of the last workflow of the page, without what needs a network."""
-    block = re.findall(r"```yaml\n(.*?)```", (ROOT / "docs" / "ci.md").read_text(encoding="utf-8"), re.DOTALL)[-1]
+def steps(workflow: int = -1) -> list[str]:
+    """Returns the scripts of a workflow of the page, the last one unless told, without what needs a network."""
+    block = re.findall(r"```yaml\n(.*?)```", (ROOT / "docs" / "ci.md").read_text(encoding="utf-8"), re.DOTALL)[workflow]
     found, lines = [], block.splitlines()
     for place, line in enumerate(lines):
         if not (run := re.match(r"( *)- run: (.*)", line)):
@@ -37,7 +37,7 @@ def steps() -> list[str]:
             body = lines[place + 1:]
             end = next((at for at, other in enumerate(body) if other.strip() and not other.startswith(" " * margin)), len(body))
             text = "\n".join(other[margin:] for other in body[:end])
-        if not text.startswith("apt-get"):
+        if not text.startswith("apt-get") and "git clone" not in text:
             found.append(text)
     return found
 

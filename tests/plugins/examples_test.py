@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
+from ci_steps_test import steps  # noqa: E402
 from program import PATIENCE_S, PROGRAM, SOURCE, main, valid  # noqa: E402
 
 CC, CXX = sys.argv[3:5]
@@ -43,6 +44,19 @@ def test_the_pages_plugin_in_c_has_a_verified_row():
     cells = {cell["collider"]["name"]: cell for cell in valid("mine.json")["cells"]}
     assert list(cells) == ["mine", "brute", "grid"]
     assert all(cell["check"]["verdict"] == "agrees" and cell["samples"] for cell in cells.values()), cells
+
+
+def test_the_workflow_of_a_plugins_repository_judges_it():
+    os.makedirs("repository/bvhbench")
+    os.symlink(PROGRAM, "repository/bvhbench/bvhbench")
+    os.symlink(SOURCE / "plugins", "repository/bvhbench/plugins")
+    source, = blocks("c")
+    for right, wrong in (("", ""), ("state)->count, *two", "state)->count - 1, *two")):
+        pathlib.Path("repository/mine.c").write_text(source.replace(right, wrong))
+        done = subprocess.run(["bash", "-ec", "\n".join(steps(0)).replace("cc ", f"{CC} ", 1)], cwd="repository", capture_output=True,
+                              text=True, timeout=PATIENCE_S)
+        assert done.returncode == bool(right), done
+        assert ("1 missing: " in done.stdout) == bool(right), done
 
 
 def test_the_program_in_numpy_has_a_verified_row():
