@@ -1,22 +1,22 @@
 """bvhbench export: writes result files in formats of other programs."""
 import argparse
 
-from ..exporting import action, csv_table, google_benchmark
+from ..exporting import csv_table, google_benchmark
 from ..files import output
 from ..files.json_files import Refused
 from ..files.reserved import reserved
 from ..program import command
 from ..read import input_files, rank_files, results
 
-FORMATS = {"google-benchmark": google_benchmark.text, "csv": csv_table.text, "customSmallerIsBetter": action.text}
-NAMES = "google-benchmark, csv or customSmallerIsBetter"
+FORMATS = {"google-benchmark": google_benchmark.text, "csv": csv_table.text}
+NAMES = "google-benchmark or csv"
 
 
 def parser() -> command.Parser:
     words = command.Parser(
         "export", "Write result files in a format that other programs read",
         "google-benchmark: the JSON of --benchmark_out, a repetition a sample. csv: a row for each stage of each sample. "
-        "customSmallerIsBetter: medians for github-action-benchmark. Times are nanoseconds.",
+        "Times are nanoseconds.",
         [("bvhbench export peers.json --format csv --out peers.csv", "for a spreadsheet, R or pandas"),
          ("bvhbench export results --format google-benchmark", "all result files of a folder, to standard output")],
         "docs/result-files.md")

@@ -6,7 +6,7 @@ import tempfile
 from ..files import output
 from ..files.json_files import Refused
 from ..files.reserved import reserved
-from ..page import report
+from ..page import history, report
 from ..program import child, command
 from ..read import input_files
 
@@ -23,7 +23,8 @@ def parser() -> command.Parser:
         "docs/report.md")
     words.add_argument("files", nargs="*", metavar="FILE", help="result files, or folders of them")
     words.add_argument("-o", "--out", default="report.html", help="the page")
-    words.add_argument("--brief", action="store_true", help="the figures of `plot` in place of charts, and no samples: under 1 MB")
+    words.add_argument("--history", action="store_true", help="files of several commits: each cell over them, and what changed where; "
+                       "1 if an answer at the newest commit was wrong")
     words.add_argument("--scene", action="append", default=[],
                        help="small scenes to show: their triangles, the boxes of each level of a tree, and what collides")
     words.add_argument("--frame", type=int, default=0, help="of those scenes, from 0")
@@ -40,6 +41,8 @@ def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
     if not (arguments.files or arguments.scene or arguments.view):
         raise output.WrongUsage("name result files, or a --scene to show")
+    if arguments.history and (arguments.scene or arguments.view or not arguments.files):
+        raise output.WrongUsage("--history is of result files alone: name files or folders, and no --scene")
     options = {key: getattr(arguments, key) for key in BUILDER if getattr(arguments, key) is not None}
     files = [pathlib.Path(file.path) for file in input_files.files_of(arguments.files)]
     inputs = [*map(str, files + arguments.view), *(scene_files(arguments, options) if arguments.scene else [])]
@@ -47,7 +50,8 @@ def main(words: list[str]) -> int:
             tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
         views = [view(arguments, scene, options, pathlib.Path(folder, str(number)))
                  for number, scene in enumerate(arguments.scene)]
-        return report.write(files, arguments.view + views, pathlib.Path(arguments.out), arguments.brief)
+        made = history.make(files) if arguments.history else report.make(files, arguments.view + views)
+        return report.write(*made, pathlib.Path(arguments.out))
 
 
 def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[str]:

@@ -27,12 +27,6 @@ def cells_of(documents: list[Named]) -> list[dict[str, Json]]:
              for cell in cells} for cells in those]
 
 
-def warnings_of(document: Json) -> list[Json]:
-    """Returns what the runs of a file warn of, each once, as if it was one process."""
-    each = [warning for run in sides.processes_of(document) for warning in run.get("conditions", {}).get("warnings", [])]
-    return [{"conditions": {"warnings": list(dict.fromkeys(each))}}]
-
-
 def compare(first: Named, second: Named, rules: Rules, show_all: bool) -> tuple[str, int]:
     """Returns what differs, as text, and the number of regressions. Raises WrongUsage for files that cannot be compared."""
     if rules.builders:
@@ -46,7 +40,8 @@ def compare(first: Named, second: Named, rules: Rules, show_all: bool) -> tuple[
     regressions = [] if rules.allow_missing else [f"{name}not in B" for name in before if name not in after]
     changes = [f"not the same: {remark}" for remark in run_remarks(*runs)]
     changes += [f"{name}only in B" for name in after if name not in before]
-    warnings = sides.warnings_of(warnings_of(first[1]), warnings_of(second[1]))
+    # Each once, as if a file was of one process.
+    warnings = sides.warnings_of(*([list(dict.fromkeys(sum(sides.conditions_of(document), [])))] for _, document in (first, second)))
     rows, timed, may_tell = Table("<stage", *comparison_text.COLUMNS[1:]), machine(runs[0]) == machine(runs[1]), not warnings
     for name in (name for name in before if name in after):
         pair = before[name], after[name]

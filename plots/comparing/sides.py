@@ -32,11 +32,15 @@ def processes_of(document: Json) -> list[Json]:
     return [sources[name] for name in order if name in sources]
 
 
-def warnings_of(first: list[Json], second: list[Json]) -> list[str]:
+def conditions_of(document: Json) -> list[list[str]]:
+    """Returns what each process of a document warns of."""
+    return [process.get("conditions", {}).get("warnings", []) for process in processes_of(document)]
+
+
+def warnings_of(first: list[list[str]], second: list[list[str]]) -> list[str]:
     """Returns what the processes of both sides warn of: "B, process 2: the host is on battery"."""
     return [f"{side}{f', process {number}' if len(processes) > 1 else ''}: {warning}"
-            for side, processes in (("A", first), ("B", second)) for number, process in enumerate(processes, 1)
-            for warning in process.get("conditions", {}).get("warnings", [])]
+            for side, processes in (("A", first), ("B", second)) for number, own in enumerate(processes, 1) for warning in own]
 
 
 def sides_of(first: Json, second: Json) -> Sides:
@@ -49,4 +53,4 @@ def sides_of(first: Json, second: Json) -> Sides:
         starts = [[each.get("started_at", "") for each in pair] for pair in zip(one, other, strict=True)]
         if any(max(before) > min(after) for before, after in itertools.pairwise(starts)):
             why = "the processes of both sides did not take turns, so the machine may have changed between the sides"
-    return Sides(why, warnings_of(one, other))
+    return Sides(why, warnings_of(conditions_of(first), conditions_of(second)))

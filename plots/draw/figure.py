@@ -4,7 +4,6 @@ import math
 import pathlib
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
-from typing import TypeVar
 
 import matplotlib.pyplot as plt
 import numpy
@@ -21,7 +20,6 @@ FOOTER = 4  # lines of the footer that a figure's height includes
 Draw = Callable[[results.Run], plt.Figure]
 Curve = list[tuple[int, results.Quantiles]]  # triangles and a quantity, by size
 Figures = dict[str, Callable[[], plt.Figure]]  # by the name of the picture
-Made = TypeVar("Made")
 
 
 def listed(names: list[str]) -> str:
@@ -154,30 +152,14 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
                 linespacing=1.25)
 
 
-def made(run: results.Run, figures: Figures, make: Callable[[plt.Figure, str], Made]) -> Iterator[Made]:
-    """Draws each figure and yields what `make` returns of it and its name. Raises as `make`, and results.Refused if drawing fails."""
+def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: list[pathlib.Path], force: bool) -> Iterator[pathlib.Path]:
+    """Draws and saves each figure and yields the paths. Raises as style.save, and results.Refused if drawing fails."""
     for name, draw in figures.items():
         try:
-            yield make(draw(), name)
+            yield from style.save(draw(), folder, name, inputs, force)
         except (ArithmeticError, AttributeError, LookupError, RuntimeError, TypeError, ValueError, Warning) as error:
             plt.close("all")  # what was begun
             raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
-
-
-def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: list[pathlib.Path], force: bool) -> Iterator[pathlib.Path]:
-    """Draws and saves each figure and yields the paths. Raises as style.save, and results.Refused if drawing fails."""
-    for paths in made(run, figures, lambda drawing, name: style.save(drawing, folder, name, inputs, force)):
-        yield from paths
-
-
-def as_svg(run: results.Run, figures: Figures) -> list[tuple[str, str]]:
-    """Returns the name and the SVG of each figure. Raises results.Refused if drawing fails."""
-    def text(drawing: plt.Figure, name: str) -> tuple[str, str]:
-        content = style.content(drawing, ".svg").decode("utf-8")
-        plt.close(drawing)
-        return name, content
-
-    return list(made(run, figures, text))
 
 
 def named(run: results.Run, draws: dict[str, Draw]) -> Figures:

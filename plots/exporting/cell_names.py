@@ -1,6 +1,6 @@
 """Names of cells for other programs: "peers/torus:20000/oibvh-multi/order:hilbert30". Everything that identifies a cell and is
 not the default is in its name, so that names are equal for equal cells of two files, and different for different cells."""
-from ..files import json_files
+from ..read import input_files
 from ..read.cells import OF_SCENE, Cell, grouped, parts
 from ..read.results import Run
 
@@ -24,7 +24,8 @@ def names_of(cells: list[Owned]) -> list[str]:
     has several times a number from its second time on."""
     names = [name_of(cell) for _, cell in cells]
     files = {name: len({id(run) for run, _ in those}) for name, those in grouped(cells, lambda one: name_of(one[1])).items()}
-    titles = titles_of(list(dict.fromkeys(id(run) for run, _ in cells)), {id(run): run for run, _ in cells})
+    runs = {id(run): run for run, _ in cells}
+    titles = dict(zip(runs, input_files.titles_of([run.path for run in runs.values()]), strict=True))
     names = [f"{name}/file:{titles[id(run)]}" if files[name] > 1 else name for name, (run, _) in zip(names, cells, strict=True)]
     times: dict[str, int] = {}
     numbered = []
@@ -32,9 +33,3 @@ def names_of(cells: list[Owned]) -> list[str]:
         times[name] = times.get(name, 0) + 1
         numbered.append(name if times[name] == 1 else f"{name}/again:{times[name]}")
     return numbered
-
-
-def titles_of(order: list[int], runs: dict[int, Run]) -> dict[int, str]:
-    """Returns each file's name without its ending; its whole path if another file has the same name."""
-    short = {key: json_files.name_of(runs[key].path) for key in order}
-    return {key: name if list(short.values()).count(name) == 1 else str(runs[key].path) for key, name in short.items()}

@@ -10,52 +10,6 @@ from ..words.tables import counted
 from .cell_data import scene_name, state_of, who
 
 
-def binary(count: float) -> str:
-    for unit in ("bytes", "KiB", "MiB"):
-        if count < 1024:
-            return f"{count:,.4g} {unit}"
-        count /= 1024
-    return f"{count:,.4g} GiB"
-
-
-def facts_of(document: dict[str, Any]) -> list[tuple[str, str]]:
-    run = document["run"]
-    program, host, device = run["program"], run["host"], run["device"]
-    tuning, costs = run.get("tuning"), run.get("node_costs")
-    facts = [
-        ("Command", " ".join(run["command"])),
-        ("Run", f"{run['id']}, from {run['started_at']} to {run.get('finished_at', 'no end: it was stopped, or goes on')}"),
-        ("Program", f"bvhbench {program['version']}, commit {program['commit']}{' with local changes' if program['dirty'] else ''}, "
-                    f"{program['build_type']} build, {program['compiler']}, -march={program['arch']}, kernels {program['kernels']}"),
-        ("Machine", f"{host['name']}: {host['cpu']}, {host['threads']} threads, {host['os']}"),
-        ("Device", f"{device['name']} ({device['kind']}), {device['compute_units']} compute units, "
-                   f"{binary(device['global_memory_bytes'])} of memory, {binary(device['local_memory_bytes'])} local, "
-                   f"groups of up to {device['max_group_size']}, timer resolution {device['timer_resolution_ns']} ns"),
-        ("Driver", f"{device['platform']}, {device['driver']}, {device['opencl']}, {device['opencl_c']}"),
-        ("Libraries", ", ".join(f"{name} {version}" for name, version in run["libraries"].items()))]
-    cells = [Cell(raw) for raw in document["cells"] if "outside" in raw]
-    if whose := {f"{cell.outside['name']}: {cell.provenance}": None for cell in cells}:
-        facts.append(("From outside", "; ".join(whose)))
-    if "copy_rate_bytes_per_s" in run:
-        over = f", over buffers of {binary(run['copy_rate_buffer_bytes'])}" if "copy_rate_buffer_bytes" in run else ""
-        facts.append(("Copy rate", f"{run['copy_rate_bytes_per_s'] / 1e9:,.4g} GB/s read and written{over}"))
-    if sources := document.get("merged_from"):
-        rates = sorted(source["copy_rate_bytes_per_s"] / 1e9 for source in sources if "copy_rate_bytes_per_s" in source)
-        said = f", copy rates {rates[0]:,.4g} to {rates[-1]:,.4g} GB/s; shares are of each cell's own" if rates else ""
-        facts.append(("Merged from", f"{len(sources)} run{'' if len(sources) == 1 else 's'}{said}"))
-    if "launch_cost_ns" in run:
-        facts.append(("A launch", f"{run['launch_cost_ns'] / 1e3:.4g} µs with next to nothing to do"))
-    if "compile_ns" in run:
-        facts.append(("Compiling kernels", f"{run['compile_ns'] / 1e9:.4g} s, in no sample"))
-    if tuning:
-        values = ", ".join(f"{name} {value}" for name, value in tuning["values"].items())
-        facts.append(("Tuning", f"{tuning['from']}" + (f": {values}" if values else "")))
-    if costs:
-        facts.append(("Costs in sah_cost and epo", f"an inner node {costs['inner']:g}, a triangle {costs['triangle']:g}"))
-    facts.append(("Result format", document["format"]))
-    return facts
-
-
 def sentence_of(document: dict[str, Any]) -> str:
     run = document["run"]
     program, device = run["program"], run["device"]

@@ -34,10 +34,8 @@ def plotly_file() -> pathlib.Path:
 def three_files() -> list[pathlib.Path]:
     folder = DEBIAN / "javascript" / "three"
     files = [folder / "three.min.js", folder / "examples" / "js" / "controls" / "OrbitControls.js"]
-    for path in files:
-        if not path.exists():
-            raise results.Refused(f"a scene in three dimensions needs three.js, and {path} is not there: "
-                                  "on Debian, install libjs-three")
+    if missing := [path for path in files if not path.exists()]:
+        raise results.Refused(f"a scene in three dimensions needs three.js, and {missing[0]} is not there: on Debian, install libjs-three")
     return files
 
 
@@ -62,36 +60,30 @@ def finding(found: dict[str, Any], head: str = "") -> str:
     return f'<div class="finding">{head}{"".join(lines)}</div>' if lines else ""
 
 
-def devices(names: list[str]) -> str:
-    return f'<p class="note">Measured on {html.escape(", ".join(dict.fromkeys(names)))}.</p>' if names else ""
-
-
-def findings(files: list[tuple[str, list[dict[str, Any]]]]) -> str:
-    """Returns what was found in each file, with links to the files."""
+def findings(devices: list[str], files: list[tuple[str, list[dict[str, Any]]]]) -> str:
+    """Returns what devices the files are of, and what was found in each file, with links to the files."""
     def head(number: int, title: str, experiment: str) -> str:
         more = f" <span>{html.escape(experiment)}</span>" if experiment not in title else ""
         return f'<h4><a href="#file-{number}">{html.escape(title)}</a>{more}</h4>'
 
     said = "".join(finding(found, head(number, title, found["experiment"])) for number, (title, all_found) in enumerate(files)
                    for found in all_found)
-    return f'<h3>What was found</h3><div class="findings">{said}</div>' if said else ""
+    measured = f'<p class="note">Measured on {html.escape(", ".join(dict.fromkeys(devices)))}.</p>' if devices else ""
+    return measured + (f'<h3>What was found</h3><div class="findings">{said}</div>' if said else "")
 
 
-def section(number: int, title: str, sentence: str, warnings: list[str], facts: list[tuple[str, str]],
-            findings: list[dict[str, Any]]) -> str:
+def section(number: int, title: str, sentence: str, warnings: list[str], findings: list[dict[str, Any]]) -> str:
     """Returns the part of a file's section that is visible without scripts."""
     said = "".join(f'<p class="warning">{html.escape(warning)}</p>' for warning in warnings)
-    listed = "".join(f"<div><dt>{html.escape(term)}</dt><dd>{html.escape(fact)}</dd></div>" for term, fact in facts)
     return (f'<section id="file-{number}" class="file" hidden><h2>{html.escape(title)}</h2>'
             f'<p class="note">{html.escape(sentence)}</p>{said}{"".join(map(finding, findings))}'
-            f'<details class="circumstances"><summary>What was run on what</summary><dl class="facts">{listed}</dl></details>'
+            f'<details class="circumstances"><summary>What was run on what</summary></details>'
             '<div class="verdicts"></div><div class="charts"></div><div class="tables"></div></section>')
 
 
-def libraries(charts: bool, scenes: bool) -> list[str]:
-    """Returns the libraries that a page with charts or scenes needs. Raises results.Refused if one is not there."""
-    found = [blob("plotly", plotly_file().read_bytes())] if charts else []
-    return found + ([blob("three", b"\n".join(path.read_bytes() for path in three_files()))] if scenes else [])
+def libraries(scenes: bool) -> list[str]:
+    """Returns the libraries that a page, or one with scenes, needs. Raises results.Refused if one is not there."""
+    return [blob("plotly", plotly_file().read_bytes())] + ([blob("three", b"\n".join(path.read_bytes() for path in three_files()))] if scenes else [])
 
 
 def page(title: str, found: str, note: str, sections: list[str], blobs: list[str]) -> str:

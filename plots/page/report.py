@@ -2,26 +2,23 @@
 import os
 import pathlib
 from collections import Counter
-from typing import Any
+from typing import Any, NamedTuple
 
-from ..draw import figure, style
-from ..figures import catalog as all_figures
-from ..files import json_files, output
-from ..read import results
+from ..files import output
+from ..files.json_files import Json
+from ..read import input_files, results
 from ..read.cells import Cell
 from . import cell_data, circumstances, experiment_tables, findings, html, plot_looks, stress_data, tables
-from .tables import TO_SAMPLES
 
 LEADS_ON = "A time stands beside its verdict, and leads to its raw samples; so does a mark of a chart."
-IN_BRIEF = "A time stands beside its verdict; the result files have the raw samples."
 STATES = ("agrees", "counted", "not_checked", "holds", "refused", "differs", "broken", "failed", "skipped")
 BAD = STATES[STATES.index("differs"):]
+KEPT = ("format", "run", "merged_from")  # parts of a file that a section shows as they are
 RUNS = [("experiments", "text"), ("cells", "count"), ("wrong or missing", "text"),
         *((name, "text") for name in ("device", "driver", "commit", "options", "machine", "processor", "started"))]
-DEVICE = 4  # the column of a row of runs_table
 
 
-def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell]) -> dict[str, Any]:
+def file_data(path: pathlib.Path, document: Json, all_cells: list[Cell]) -> Json:
     reader, stress = results.Run(path, document), document.get("stress", [])
     cells = [cell_data.cell_data(cell, reader.copy_rate_of(cell)) for cell in all_cells]
     cell_data.mark_fronts(cells)
@@ -37,15 +34,14 @@ def tallied(by_library: Counter[tuple[str | None, str]]) -> list[dict[str, str]]
     tally = []
     for state in STATES:
         counts = Counter({library: count for (library, other), count in by_library.items() if other == state})
-        theirs = [(library, count) for library, count in counts.most_common() if library and state in BAD]
         whose = "all" if not counts[None] else f"{counts.total() - counts[None]:,}"
-        named = ", ".join(f"{library} {count:,}" for library, count in theirs)
+        named = ", ".join(f"{library} {count:,}" for library, count in counts.most_common() if library and state in BAD)
         if counts.total():
             tally.append({"state": state, "count": f"{counts.total():,}", "of": f", {whose} of libraries: {named}" if named else ""})
     return tally
 
 
-def run_row(title: str, document: dict[str, Any], states: list[dict[str, str]]) -> list[Any]:
+def run_row(title: str, document: Json, states: list[dict[str, str]]) -> list[Any]:
     """Returns the file's row of runs_table."""
     run, cells = document["run"], document["cells"]
     bad = "; ".join(f"{one['count']} {one['state']}{one['of']}" for one in states if one["state"] in BAD)
@@ -54,84 +50,66 @@ def run_row(title: str, document: dict[str, Any], states: list[dict[str, str]]) 
             run["host"]["name"], run["host"]["cpu"], run["started_at"]]
 
 
-def runs_table(rows: list[list[Any]]) -> dict[str, Any]:
+def runs_table(rows: list[list[Any]]) -> Json:
     links = {"links": [f"#file-{number}" for number, _ in enumerate(rows)]}
     return cell_data.table("What was run on what", [("file", "text", links), *RUNS], ("device", "experiments", "commit"), rows)
 
 
-def text_of(name: str) -> str:
-    """Returns a file's name as text, although it may contain any bytes."""
-    return os.fsencode(name).decode("utf-8", "replace")
+class Part(NamedTuple):
+    """What a section of the page shows of a result file, or of the history of an experiment (history.py), which has no samples."""
+
+    title: str
+    document: Json  # whose circumstances are told
+    data: Json  # what page.js draws
+    answers: list[Json]  # of findings.py
+    warnings: list[str]
+    samples: list[cell_data.Data] = []
+
+    @property
+    def is_wrong(self) -> bool:
+        return any(one["state"] == "differs" for one in self.data["states"])
 
 
-def titles_of(files: list[pathlib.Path]) -> list[str]:
-    """Returns each file's name, preceded by its folder if another file has the same name."""
-    names = [json_files.name_of(path) for path in files]
-    return [text_of(name if names.count(name) == 1 else f"{path.resolve().parent.name}/{name}")
-            for path, name in zip(files, names, strict=True)]
+def part_of(path: pathlib.Path, title: str) -> Part:
+    document = results.document_of(path)
+    cells, stress = [Cell(cell) for cell in document["cells"]], document.get("stress", [])
+    try:
+        answers = findings.findings_of(cells) + ([stress_data.finding_of(stress)] if stress else [])
+        return Part(title, document, file_data(path, document, cells), answers, circumstances.warnings_of(document),
+                    [cell_data.samples_data(cell) for cell in cells])
+    except (ArithmeticError, ValueError) as error:
+        raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
 
 
-def unlinked(table: dict[str, Any]) -> dict[str, Any]:
-    """Returns a table whose numbers do not lead to their samples."""
-    def leads_on(key: str, value: Any) -> bool:
-        return key == "cells" or (key == "links" and any(link and link.startswith("#cell=") for link in value or []))
-
-    columns = [{key: value for key, value in column.items() if not leads_on(key, value)} for column in table["columns"]]
-    return table | {"cells": None, "columns": columns, "note": table["note"].replace(TO_SAMPLES, "")}
-
-
-def in_brief(path: pathlib.Path, data: dict[str, Any]) -> tuple[dict[str, Any], list[tuple[str, str]]]:
-    """Returns a file's data for tables alone, and the figures in place of its charts."""
-    style.set_up()
-    run = results.load(path)
-    kept = data | {"cells": [], "bars": [], "looks": {}, "tables": [unlinked(table) for table in data["tables"]]}
-    return kept, figure.as_svg(run, all_figures.pictures_of(run))
-
-
-def make(files: list[pathlib.Path], views: list[pathlib.Path], is_brief: bool) -> tuple[str, bool]:
+def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:
     """Returns the page and whether an answer was wrong. Raises results.Refused."""
-    blobs, sections, is_wrong, runs, found = [], [], False, [], []
-    titles = titles_of(files)
-    for number, (path, title) in enumerate(zip(files, titles, strict=True)):
-        document = results.document_of(path)
-        cells = [Cell(cell) for cell in document["cells"]]
-        stress = document.get("stress", [])
-        try:
-            data = file_data(path, document, cells)
-            answers = findings.findings_of(cells) + ([stress_data.finding_of(stress)] if stress else [])
-            shown, pictures = in_brief(path, data) if is_brief else (data, [])
-            blobs.append(html.json_blob(f"file-{number}", shown))
-        except (ArithmeticError, ValueError) as error:
-            raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
-        is_wrong |= any(one["state"] == "differs" for one in data["states"])
-        runs.append(run_row(title, document, data["states"]))
-        found.append((title, answers))
-        sections.append(html.section(number, title, circumstances.sentence_of(document),
-                                     circumstances.warnings_of(document), circumstances.facts_of(document), answers))
-        if is_brief:
-            blobs.append(html.json_blob(f"pictures-{number}", pictures))
-        else:
-            blobs.append(html.json_blob(f"samples-{number}", [cell_data.samples_data(cell) for cell in cells]))
-    scenes = []
-    for number, path in enumerate(views):
-        facts, arrays = circumstances.view_of(path)
-        is_wrong |= facts["state"] == "differs"
-        scenes.append(facts)
-        blobs += [html.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]
-    best = findings.best_table(found)
-    overview = ([unlinked(best) if is_brief else best] if best else []) + ([runs_table(runs)] if runs else [])
-    head = {"titles": titles, "tables": overview, "views": scenes, "stages": plot_looks.stage_looks(), "dark": plot_looks.IN_THE_DARK}
-    title = "bvhbench report" + (f": {', '.join(titles[:4])}" if files else "")
-    title += f" and {len(files) - 4} more" if len(files) > 4 else ""
-    blobs.insert(0, html.json_blob("head", head))
-    libraries = html.libraries(charts=not is_brief, scenes=bool(scenes))
-    said = html.devices([row[DEVICE] for row in runs]) + html.findings(found)
-    return html.page(title, said, IN_BRIEF if is_brief else LEADS_ON, sections, blobs + libraries), is_wrong
+    titles = [os.fsencode(title).decode("utf-8", "replace") for title in input_files.titles_of(files)]
+    parts = [part_of(path, title) for path, title in zip(files, titles, strict=True)]
+    scenes = [circumstances.view_of(path) for path in views]
+    best = findings.best_table([(part.title, part.answers) for part in parts])
+    runs = [runs_table([run_row(part.title, part.document, part.data["states"]) for part in parts])] if parts else []
+    is_wrong = any(part.is_wrong for part in parts) or any(facts["state"] == "differs" for facts, _ in scenes)
+    return page_of("report", LEADS_ON, parts, [best, *runs] if best else runs, scenes), is_wrong
 
 
-def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, is_brief: bool) -> int:
-    """Writes the page and returns the exit code: 1 if an answer was wrong. Raises results.Refused."""
-    text, is_wrong = make(files, views, is_brief)
+def page_of(kind: str, note: str, parts: list[Part], overview: list[Json], scenes: list[tuple[Json, dict[str, bytes]]]) -> str:
+    """Returns the page. Its first part has the tables of `overview` and the scenes, each as returned by circumstances.view_of."""
+    titles = [part.title for part in parts]
+    head = {"titles": titles, "tables": overview, "views": [facts for facts, _ in scenes], "stages": plot_looks.stage_looks(),
+            "dark": plot_looks.IN_THE_DARK}
+    blobs, sections = [html.json_blob("head", head)], []
+    for number, part in enumerate(parts):
+        blobs += [html.json_blob(f"file-{number}", part.data | {"run": {key: part.document[key] for key in KEPT if key in part.document}}),
+                  html.json_blob(f"samples-{number}", part.samples)]
+        sections.append(html.section(number, part.title, circumstances.sentence_of(part.document), part.warnings, part.answers))
+    blobs += [html.blob(f"view-{number}-{name}", content) for number, (_, arrays) in enumerate(scenes) for name, content in arrays.items()]
+    title = f"bvhbench {kind}" + (f": {', '.join(titles[:4])}" if titles else "") + (f" and {len(titles) - 4} more" if titles[4:] else "")
+    said = html.findings([part.document["run"]["device"]["name"] for part in parts], [(part.title, part.answers) for part in parts])
+    return html.page(title, said, note, sections, blobs + html.libraries(bool(scenes)))
+
+
+def write(text: str, is_wrong: bool, out: pathlib.Path) -> int:
+    """Writes a page and returns the exit code: 1 if an answer was wrong. Raises results.Refused."""
     content = text.encode("utf-8")
     if output.write(out, content):
         print(f"written: {out}, {len(content) / 1e6:.1f} MB")

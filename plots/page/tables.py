@@ -12,7 +12,6 @@ from .plot_looks import stage_looks
 
 STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
 UNITS = (("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9))
-TO_SAMPLES = " Each time leads to its samples."
 Cells = list[tuple[int, dict[str, Any]]]  # places in the file and the cells' data
 Value = Callable[[dict[str, Any]], Any]
 
@@ -131,16 +130,14 @@ def tables_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
         table.add("why", "text", lambda data: data["why"] or "no reason given")
         tables.append(table.data() | {"folded": all(data["state"] == "skipped" for _, data in missing)})
     if builds:
-        tables.append(times_table("Builds", builds, "builder", TREE,
-                                  "Whole: the sum of the stages. Stages: medians." + TO_SAMPLES))
+        tables.append(times_table("Builds", builds, "builder", TREE, "Whole: the sum of the stages. Stages: medians."))
     if frames:
         if len({data["frame"] for _, data in frames}) > 1:
             tables.append(summary_table(frames))
-        tables.append(times_table("Frames", frames, "pipeline", FOUND,
-                                  "Whole: from the first start to the last end. Stages: medians." + TO_SAMPLES))
+        tables.append(times_table("Frames", frames, "pipeline", FOUND, "Whole: from the first start to the last end. Stages: medians."))
     if others:
         tables.append(times_table("Accuracy", others, "method", ["pairs_count", "missed_count", "false_count", "sah_cost"],
-                                  "Times beside errors." + TO_SAMPLES))
+                                  "Times beside errors."))
     if ranked := [(place, data) for place, data in placed if data["ranks"]]:
         table = begin("Several ranks", ranked, "pipeline", "Frame: of all ranks, the median of each frame's longest.")
         for label, kind, key, scale in RANKS:

@@ -1,11 +1,11 @@
 """Result files as users give them: files, and folders that stand for all result files below them."""
 import os
 import pathlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ..files import output
-from ..files.json_files import Refused, files_in
+from ..files.json_files import Refused, files_in, name_of
 from . import results
 
 MOST_NAMED = 5
@@ -29,6 +29,12 @@ def files_of(given: Iterable[Path]) -> list[Given]:
     for path in given:
         found += of_folder(pathlib.Path(path)) if os.path.isdir(path) else [Given(path, pathlib.Path("."), False)]
     return found
+
+
+def titles_of(paths: Sequence[pathlib.Path]) -> list[str]:
+    """Returns each file's name without its ending; its whole path if another file has the same name. It may hold bytes that are no text."""
+    names = [name_of(path) for path in paths]
+    return [name if names.count(name) == 1 else str(path) for path, name in zip(paths, names, strict=True)]
 
 
 def of_folder(folder: pathlib.Path) -> list[Given]:

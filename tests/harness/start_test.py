@@ -134,7 +134,7 @@ def test_settings_for_another_python_or_matplotlib_change_nothing():
     for name in ("numpy", "matplotlib", "statistics"):
         pathlib.Path("foreign").mkdir(exist_ok=True)
         pathlib.Path(f"foreign/{name}.py").write_text("raise ImportError('of another Python')")
-    reads = [("show", "r.json"), ("compare", "r.json", "r.json", "--allow-dirty"), ("report", "--brief", "r.json", "-o", "b.html", "--force"),
+    reads = [("show", "r.json"), ("compare", "r.json", "r.json", "--allow-dirty"), ("report", "r.json", "-o", "b.html", "--force"),
              ("plot", "r.json", "--out", "drawn"), ("list", "devices")]
     usual = [expect(0, *words) for words in reads]
     pictures = {path.name: path.read_bytes() for path in pathlib.Path("drawn").iterdir()}

@@ -14,7 +14,7 @@ from base import GOLDEN, ROOT, Raw, run_of
 
 from plots.commands import show
 from plots.console import accuracy_table, cells as cells_page, paper, stress_table, tree_costs
-from plots.page import cell_data, circumstances, findings, report, tables as page_tables
+from plots.page import cell_data, findings, report, tables as page_tables
 from plots.read import results
 from plots.read.cells import Cell
 from plots.words import tables
@@ -189,12 +189,6 @@ class OfTheReport(unittest.TestCase):
         data = data_of({**cell("embree-low"), **failed}, {**cell("karras"), **failed}, cell("perfect"))
         self.assertEqual([(one["state"], one["count"] + one["of"]) for one in data["states"]],
                          [("agrees", "1"), ("failed", "2, 1 of libraries: Embree 1")])
-
-    def test_the_circumstances_of_a_file_are_facts(self) -> None:
-        facts = dict(circumstances.facts_of(base.golden("table1")))
-        for name, words in (("Command", "reproduce table1"), ("Program", "0" * 40), ("Program", "GNU 12.2.0"), ("Machine", "Invented CPU"),
-                            ("Device", "Invented GPU")):
-            self.assertIn(words, facts[name])
 
     def test_a_rank_needs_every_frame(self) -> None:
         made = [{**cell(builder, ns), "scene": {"name": "cloth", "triangles": 8, "frame": frame}}

@@ -95,13 +95,10 @@ function meshNames(traces) {
 function sizeChart(file) {
   const builds = file.cells.filter((cell) => ["build", "refit"].includes(cell.operation) && cell.triangles);
   const sizes = Map.groupBy(builds, (cell) => cell.experiment);
-  const isTimed = (cell) => cell.times.whole;
-  const names = [...sizes.keys()].filter((name) => distinct(sizes.get(name).filter(isTimed), "triangles").length > 2);
+  const {names, cells: all, stages} = groupsThatVary(sizes, "triangles", 2);
   if (!names.length) {
     return null;
   }
-  const all = names.flatMap((name) => sizes.get(name));
-  const stages = [...new Set(all.flatMap((cell) => Object.keys(cell.times)))];
   const familyOf = familiesOf(builds);
   const placeOf = (cell) => familyOf(cell) || cell.scene;
   const places = [...new Set(all.map(placeOf))];

@@ -5,6 +5,14 @@ function distinct(cells, key) {
   return [...new Set(cells.map((cell) => cell[key]))];
 }
 
+/** Returns the groups in which timed cells have more than `least` values of a key: their names, their cells, and the stages of these. */
+function groupsThatVary(groups, key, least) {
+  const isTimed = (cell) => cell.times.whole;
+  const names = [...groups.keys()].filter((name) => distinct(groups.get(name).filter(isTimed), key).length > least);
+  const cells = names.flatMap((name) => groups.get(name));
+  return {names, cells, stages: [...new Set(cells.flatMap((cell) => Object.keys(cell.times)))]};
+}
+
 /** Returns a function that names a cell's question: its scene, and its experiment, axis and request where these vary. */
 function questionOf(cells) {
   const ofScene = [...Map.groupBy(cells, (cell) => cell.scene).values()];

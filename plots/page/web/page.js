@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The page itself: its contents, the part that is shown, and the targets of links. Parts are created when first shown.
-/** Returns the figures that a brief page has in place of charts. */
-async function pictures(number) {
-  return (await jsonOf("pictures-" + number)).map(([name, svg]) => {
-    const src = URL.createObjectURL(new Blob([svg], {type: "image/svg+xml"}));
-    return element("figure", {class: "chart drawn"}, element("figcaption", {}, element("h3", {}, name)), element("img", {src, alt: ""}));
-  });
-}
-
 /** Creates a file's tables and charts. */
 async function makeFile(number, head) {
   const part = document.getElementById("file-" + number);
   const file = await jsonOf("file-" + number);
   file.cells.forEach((cell, place) => Object.assign(cell, {file: number, place}));
+  part.querySelector(".circumstances").append(element("dl", {class: "facts"}, ...factsOf(file.run, "")));
   const tally = ({state, count, of}) => element("span", {class: "tally"}, badge(state, of.startsWith(", all")), ` ${count}${of}`);
   part.querySelector(".verdicts").append(...file.states.map(tally));
-  const charts = [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)]
+  const charts = [...(file.runs ? [] : [sizeChart(file), stagesChart(file, head.stages), paretoChart(file)]), framesChart(file)]
     .filter(Boolean)
     .map((chart) => chart.element);
-  const isBrief = document.getElementById("blob-pictures-" + number);
-  part.querySelector(".charts").append(...(isBrief ? await pictures(number) : charts));
+  part.querySelector(".charts").append(...charts);
   for (const table of file.tables) {
     const isFirst = table.title.startsWith("Without") && !table.folded;
     part.querySelector(isFirst ? ".verdicts" : ".tables")[isFirst ? "after" : "append"](tableSection(table, number));

@@ -23,12 +23,13 @@ function worded(key) {
   return key.replace(/_/g, " ");
 }
 
-/** Returns the facts of a cell as [name, text], with nested ones flattened. */
+/** Returns the facts of a cell or a run as rows of a list, with nested ones flattened. */
 function factsOf(value, prefix) {
   return Object.entries(value).flatMap(([key, entry]) => {
-    const isNested = entry !== null && typeof entry === "object" && !Array.isArray(entry);
     const name = prefix + worded(key);
-    return isNested ? factsOf(entry, name + " ") : [[name, [entry].flat().map(String).join(" ")]];
+    const isNested = entry !== null && typeof entry === "object" && !(Array.isArray(entry) && typeof entry[0] !== "object");
+    const row = () => element("div", {}, element("dt", {}, name), element("dd", {}, [entry].flat().map(String).join(" ")));
+    return isNested ? factsOf(entry, name + " ") : [row()];
   });
 }
 
@@ -100,7 +101,6 @@ async function showSamples(file, place, stage) {
     : cell.why;
   const frame = cell.frame ? `, frame ${cell.frame}` : "";
   const title = `${cell.who} on ${cell.scene}${frame}${stage === "whole" ? "" : `: ${stage}`}`;
-  const fact = ([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text));
   const close = button({click: () => dialog.close()}, "Close");
   const isDrawn = samples.count && quantiles;
   dialog.replaceChildren(
@@ -111,7 +111,7 @@ async function showSamples(file, place, stage) {
     ...(samples.count && keys.length > 1 ? [element("label", {}, "Of each stage ", select)] : []),
     holder,
     element("h3", {}, "The cell"),
-    element("dl", {class: "facts"}, ...factsOf(samples.facts, "").map(fact))
+    element("dl", {class: "facts"}, ...factsOf(samples.facts, ""))
   );
   fill("span_ns");
   if (!dialog.open) {
