@@ -3,7 +3,6 @@ import json
 import os
 import pathlib
 import tempfile
-from typing import Any
 
 from ..console import best_table as page
 from ..console import run as circumstances
@@ -11,8 +10,9 @@ from ..files import documents, output
 from ..files.output import WrongUsage
 from ..files.reserved import is_replaced, reserved
 from ..program import child, command
+from ..racing import alone
 from ..racing.plan import MOST, NAME, Plan
-from ..read import merging, ranking, ranking_text, results
+from ..read import merging, ranking, results
 from ..sweeping.planned import Json
 
 
@@ -20,8 +20,8 @@ def parser() -> command.Parser:
     words = command.Parser(
         "best", "Say which builder and collider is the fastest for scenes of yours, and by how much",
         "Races the builders, orders and colliders that the device has against each other; one that is beaten is not measured "
-        "further. Prints them by time, then which to take, and the command that measures it alone. Several scenes are one class: "
-        "each has a table, and all together one.",
+        "further. Prints them by time, then which to take, and the command that measures it alone, which it runs. Several scenes "
+        "are one class: each has a table, and all together one.",
         [("bvhbench best bunny.obj", "which pipeline for a mesh with itself?"),
          ("bvhbench best my/folder --frames 0:10 --adjacent drop --narrow exact", "for frames of an animation, to contacts"),
          ("bvhbench best a.ply b.ply --for build --builders oibvh-multi,karras,apetrei-fused", "which of these builds, over both?")],
@@ -34,7 +34,7 @@ def parser() -> command.Parser:
                       ("colliders", "names of `list colliders`"), ("boxes", "names of `list formats`")):
         add(f"--{key}", help=f"only these: {what}, with commas between")
     add("--with-libraries", action="store_true", help="on a GPU too: what runs on the host, and Embree and FCL")
-    add("--frames", help="a:b, from frame a to before b")
+    add("--frames", help="a:b, from frame a to before b; all, if it is not given")
     add("--objects", help="what gets a tree of its own: auto, one, mesh or components")
     add("--pairs-of", help="all, between or within: pairs of all triangles, between objects or within")
     add("--adjacent", help="keep or drop pairs that share a vertex index")
@@ -49,10 +49,9 @@ def parser() -> command.Parser:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if not 2 <= arguments.max_samples <= 1_000_000:
-        raise WrongUsage(f"--max-samples: {arguments.max_samples} is not from 2 to 1000000")
-    facts = child.facts(command.common_words(arguments, "--force"))
-    plan = Plan(arguments, facts["device"]["kind"] == "cpu")
+    if not ranking.FEWEST_OF_BEST <= arguments.max_samples <= 1_000_000:
+        raise WrongUsage(f"--max-samples: {arguments.max_samples} is not from {ranking.FEWEST_OF_BEST} to 1000000")
+    plan = Plan(arguments, child.facts(command.common_words(arguments, "--force"))["device"]["kind"] == "cpu")
     picture = picture_of(arguments.out)
     with reserved(arguments.out, "--out", arguments.force, plan.files):
         for path in (picture, picture.with_suffix(".svg")) if picture else ():
@@ -61,15 +60,15 @@ def main(words: list[str]) -> int:
         code, document = measured(plan, words)
         if document is None:
             return code
-        output.write(arguments.out, text_of(document).encode(errors="surrogateescape"))
+        text = merging.document_text(document["run"], list(map(documents.line_of, document["cells"])), [], [], document["format"])
+        output.write(arguments.out, text.encode(errors="surrogateescape"))
     run = results.Run(pathlib.Path(arguments.out), document)
     found = ranking.ranked(run.all_cells, plan.objective)
-    print(page.text(found, arguments.all), end="")
-    print(circumstances.untuned(run), end="")
-    if found.rows:
-        print("".join(f"again, alone: {line}\n" for line in repeated(plan, found)), end="")
+    print(page.text(found, arguments.all), circumstances.warnings(run), circumstances.untuned(run), sep="", end="", flush=True)
     figure = drawn(run, found, picture, arguments.force) if picture and found.rows else ""
     print(f"written: {arguments.out}{figure}", flush=True)
+    for line in alone.lines(plan, found, run) if code == 0 else ():
+        print(line, flush=True)
     return code
 
 
@@ -90,25 +89,10 @@ def measured(plan: Plan, words: list[str]) -> tuple[int, Json | None]:
         code, _ = child.run(["run", described, "--out", file, "--quiet", *plan.words])
         if not os.path.exists(file):
             return code, None
-        document: dict[str, Any] = documents.read(file)
+        document = documents.read(file)
     document["run"]["command"] = ["bvhbench", NAME, *words]
     document["cells"] += [one.raw | {"status": "skipped", "reason": one.why_not} for one in plan.cells if one.why_not]
     return code, document
-
-
-def text_of(document: Json) -> str:
-    lines = [documents.line_of(cell) for cell in document["cells"]]
-    return merging.document_text(document["run"], lines, [], [], document["format"])
-
-
-def repeated(plan: Plan, found: ranking.Ranking) -> list[str]:
-    """Returns the command lines that measure the best alone, one for each scene."""
-    lines = []
-    for scene in plan.scenes:
-        options = plan.query | {key: value for key, value in plan.scene_of(scene).items() if key != "scene"}
-        words = [word for key, value in options.items() for word in ("--" + key.replace("_", "-"), value) if word != "true"]
-        lines.append(ranking_text.repeated(found.rows[0], scene["scene"], [*words, *plan.words]))
-    return lines
 
 
 def drawn(run: results.Run, found: ranking.Ranking, picture: pathlib.Path, force: bool) -> str:

@@ -14,17 +14,20 @@ def parser() -> command.Parser:
 
 
 def main(words: list[str]) -> int:
-    files = input_files.files_of(parser().parse_args(words).files)
+    arguments = parser().parse_args(words)
+    files = input_files.files_of(arguments.files)
     for number, file in enumerate(files):
         heading = f"{chr(10) * (number > 0)}== {file.path}\n" if len(files) > 1 else ""
-        print(heading, text(str(file.path)), sep="", end="")
+        print(heading, text(str(file.path), arguments.wide), sep="", end="")
     return 0
 
 
-def text(file: str) -> str:
+def text(file: str, all_: bool) -> str:
     run = results.everything(file)
     try:
-        return ranking_text.of_cells(run.all_cells) + ranking_text.warning_lines(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
+        race = best_table.race(run, all_)
+        answer = race or ranking_text.of_cells(run.all_cells) + ranking_text.warning_lines(run.all_cells)
+        return answer + run_page.text(run) + run_page.merged(run) + ("" if race else pages(run))
     except KeyError as missing:
         raise results.Refused(f"{file}: a cell has no {missing}") from missing
 

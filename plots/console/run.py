@@ -12,7 +12,7 @@ def text(run: results.Run) -> str:
     lines = [f"device: {device['platform']}/{device['name']}, driver {device['driver']}",
              f"program: {program['version']}, commit {program['commit']}{changes}, "
              f"{program['build_type']}"]
-    lines += [f"warning: {warning}" for warning in facts.get("conditions", {}).get("warnings", [])]
+    lines += warnings(run).splitlines()
     lines += [f"NO RESULT: made under the test hook {hook}={value}" for hook, value in facts.get("test_hooks", {}).items()]
     if memory:
         lines.append("memory: {} MiB at most, {} predicted, {} given".format(
@@ -27,6 +27,11 @@ def text(run: results.Run) -> str:
     if run.costs != results.USUAL_COSTS:
         lines.append("costs in sah_cost and epo: " + results.costs_text(run.costs))
     return "".join(f"{line}\n" for line in lines)
+
+
+def warnings(run: results.Run) -> str:
+    """Returns a line for each circumstance that makes times longer or uncertain."""
+    return "".join(f"warning: {warning}\n" for warning in run.facts.get("conditions", {}).get("warnings", []))
 
 
 def untuned(run: results.Run) -> str:

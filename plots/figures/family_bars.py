@@ -19,7 +19,7 @@ def label(row: ranking.Row) -> str:
 def draw(experiment: str, run: results.Run) -> figure.plt.Figure:
     found = ranking.ranked(run.frames(experiment), trusts_stages=True)
     firsts = {scene: ranking_text.best_of_families(rows) for scene, rows in found.scenes.items()}
-    return best_bars.draw(run, dataclasses.replace(found, scenes=firsts), label, (REMARKS[experiment],))
+    return best_bars.draw(run, dataclasses.replace(found, scenes=firsts, rows=[]), label, (REMARKS[experiment],))
 
 
 FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, name) for name in REMARKS}

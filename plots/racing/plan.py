@@ -1,10 +1,10 @@
 """What `best` measures: its scenes, and the candidates that can be, each as the program describes it."""
 import argparse
-import os
+import re
 
-from ..files.json_files import Refused
 from ..files.output import WrongUsage
 from ..program import child, command
+from ..read.ranking import FEWEST_OF_BEST
 from ..sweeping.planned import Json, Planned, Sweep, expanded
 from ..words import tables
 from . import candidates
@@ -16,7 +16,7 @@ OWN = ({"scene": "hairball:30000"}, {"scene": "cloth-ball:20000:16", "frames": "
 QUESTION = ("adjacent", "narrow", "pairs_of", "within")
 OF_SCENE = ("frames", "objects", "features")
 RACES = {"frame": "whole", "build": "whole", "query": "query", "memory": "memory"}
-UNTIL, LEAST, MOST = 0.05, 5, 12  # quartile range, and samples, of those that nobody beats
+UNTIL, LEAST, MOST = 0.05, FEWEST_OF_BEST, 12  # quartile range, and samples, of those that nobody beats
 USUAL = "soup:70"  # a scene to check names with
 
 
@@ -31,7 +31,7 @@ def scenes_of(arguments: argparse.Namespace) -> list[Json]:
     if not arguments.scenes:
         if of_scene:
             raise WrongUsage(f"--{next(iter(of_scene))} is about scenes of yours, and none is named")
-        return [dict(scene) for scene in OWN]
+        return [{"scene": scene["scene"]} if arguments.objective == "build" else dict(scene) for scene in OWN]
     if arguments.objective == "build" and of_scene:
         raise WrongUsage(f"--{next(iter(of_scene))} is for pairs, and --for build makes trees only, of the first frame")
     return [{"scene": scene} | of_scene for scene in dict.fromkeys(arguments.scenes)]
@@ -58,14 +58,12 @@ class Plan:
             raise WrongUsage(f"--{option} is for pairs, and --for build makes trees only")
         if arguments.features and self.query.get("pairs_of", "all") == "all":
             raise WrongUsage("--features has two questions: choose by --pairs-of between, of vertices and faces, or within, of edges")
-        self.scenes = scenes_of(arguments)
-        self.words = command.common_words(arguments, "--force")
+        self.scenes, self.words, self.notes = scenes_of(arguments), command.common_words(arguments, "--force"), []
         self.sweep = Sweep(NAME, "Which builder and collider is the fastest?", 1, 0, False, "", [])
-        self.files = self.check_scenes()
         self.check_names(arguments)
-        several = any(has_several(scene.get("frames")) for scene in self.scenes)
-        has_narrow = self.query.get("narrow", "none") != "none"
-        asked = candidates.Asked(self.objective, is_cpu, arguments.with_libraries, has_narrow, several,
+        self.files = self.read_scenes(bool(arguments.scenes))
+        asked = candidates.Asked(self.objective, is_cpu, arguments.with_libraries, self.query.get("narrow", "none") != "none",
+                                 any(has_several(scene.get("frames")) for scene in self.scenes),
                                  *(named(arguments, key) for key in ("builders", "orders", "colliders", "boxes")))
         self.product = candidates.Product(asked, lambda what: list_of(what, self.words))
         self.cells = self.expanded(self.scenes[0], self.product.candidates())
@@ -76,57 +74,62 @@ class Plan:
     def possible(self) -> list[Planned]:
         return [one for one in self.cells if not one.why_not]
 
-    def expand(self, experiments: list[Json]) -> list[Json]:
-        return child.expanded(experiments, self.words)
+    def known(self, asked: list[Planned]) -> list[Json]:
+        """Returns the program's description of each. Raises WrongUsage for the first that it refuses."""
+        answers = child.expanded([self.sweep.experiment([one]) for one in asked], self.words) if asked else []
+        if error := next((answered["error"] for answered in answers if answered.get("error")), ""):
+            raise WrongUsage(error)
+        return answers
 
     def expanded(self, scene: Json, pairs: list[tuple[Json | None, Json | None]]) -> list[Planned]:
         """Returns each cell once, as the program describes it, or with the reason why it cannot be."""
-        planned = [Planned(self.scene_of(scene), builder and dict(builder), collider and dict(collider),
+        planned = [Planned(dict(scene), builder and dict(builder), collider and dict(collider),
                            {"trees": "auto"} | self.query if collider else {}) for builder, collider in pairs]
-        return list({one.cell.identity: one for one in reversed(expanded(planned, self.sweep, self.expand))}.values())[::-1]
+        known = expanded(planned, self.sweep, lambda experiments: child.expanded(experiments, self.words))
+        return list({one.cell.identity: one for one in reversed(known)}.values())[::-1]
 
-    def scene_of(self, scene: Json) -> Json:
-        return {"scene": scene["scene"]} if self.objective == "build" else dict(scene)
-
-    def check_scenes(self) -> list[str]:
-        """Returns the files of the scenes. Raises WrongUsage or Refused."""
-        files = []
-        for scene in self.scenes:
-            collider = None if self.objective == "build" else {"name": "leaf"}
-            one = Planned(self.scene_of(scene), {"name": "oibvh-multi"}, collider, dict(self.query) if collider else {})
-            answered, = self.expand([self.sweep.experiment([one])])
-            if answered.get("error"):
-                raise WrongUsage(answered["error"])
-            there = [file for file in answered["files"] if file]
-            if missing := next((file for file in there if not os.path.exists(file)), ""):
-                raise Refused(f"scene '{scene['scene']}': there is no file {missing}")
-            files += there
-        return files
+    def read_scenes(self, are_named: bool) -> list[str]:
+        """Returns the files of the scenes. Reads those that are named as `bvhbench scene` does, which finds what is wrong with their files;
+        takes all frames of what moves unless some are named; and notes what the question leaves open. Raises WrongUsage, or ends with
+        the code of `bvhbench scene`."""
+        collider = None if self.objective == "build" else {"name": "leaf"}
+        files = self.known([Planned(dict(scene), {"name": "oibvh-multi"}, collider, dict(self.query) if collider else {})
+                            for scene in self.scenes])
+        single = []
+        for scene in self.scenes if are_named else ():
+            code, printed = child.run(["scene", scene["scene"], *self.words], is_kept=True)
+            if code:
+                raise SystemExit(code)
+            frames, objects = (int((re.search(rb"^%s +(\d+)" % what, printed, re.MULTILINE) or [0, 1])[1]) for what in (b"frames", b"objects"))
+            single += [scene["scene"]] * (objects == 1)
+            if frames > 1 and collider and "frames" not in scene:
+                scene["frames"] = "0:"
+            if frames > 1 and scene.get("frames", "0:") == "0:":
+                what = f"all {frames} frames; --frames a:b takes those from a to before b" if collider else f"frame 0 of {frames}"
+                self.notes.append(f"{scene['scene']}: {what}")
+        if collider and "features" not in self.scenes[0] and self.query.get("pairs_of") != "between":
+            is_kept = self.query.get("adjacent", "keep") == "keep"
+            line = f"pairs of neighbours, which share a vertex index, are {'kept: --adjacent drop leaves them out' if is_kept else 'dropped'}"
+            self.notes.append(line + f", which suits one object that meets itself ({', '.join(single)})" * (is_kept and len(single) > 0))
+        return [file for answered in files for file in answered["files"] if file]
 
     def check_names(self, arguments: argparse.Namespace) -> None:
         """Raises WrongUsage for a name that the program does not know."""
-        builder, collider = {"name": "oibvh-multi"}, {"name": "leaf"}
-        asked = [Planned({"scene": USUAL}, {"name": name}, None, {}) for name in named(arguments, "builders")]
-        asked += [Planned({"scene": USUAL}, builder | {"order": name}, None, {}) for name in named(arguments, "orders")]
-        asked += [Planned({"scene": USUAL}, builder | {"boxes": name}, None, {}) for name in named(arguments, "boxes")]
-        asked += [Planned({"scene": USUAL}, builder, collider | {"name": name}, {}) for name in named(arguments, "colliders")]
-        for answered in self.expand([self.sweep.experiment([one]) for one in asked]) if asked else []:
-            if answered.get("error"):
-                raise WrongUsage(answered["error"])
+        keys = {"builders": "name", "orders": "order", "boxes": "boxes"}
+        self.known([Planned({"scene": USUAL}, {"name": "oibvh-multi", key: name}, None, {}) for what, key in keys.items() for name in named(arguments, what)]
+                   + [Planned({"scene": USUAL}, {"name": "oibvh-multi"}, {"name": name}, {}) for name in named(arguments, "colliders")])
 
     def experiment(self) -> Json:
         """Returns the race as an experiment of `run`."""
         described = self.sweep.experiment(self.possible)
         del described["samples"]
         scenes = [scene["scene"] if self.objective == "build" else scene for scene in self.scenes]
-        return described | {"scenes": scenes, "race": RACES[self.objective], "until": UNTIL, "min_samples": min(LEAST, self.most),
-                            "max_samples": self.most}
+        return described | {"scenes": scenes, "race": RACES[self.objective], "until": UNTIL, "min_samples": LEAST, "max_samples": self.most}
 
     def note(self, all_: bool) -> str:
         """Returns what is measured and what is not, as lines."""
         impossible = len(self.cells) - len(self.possible)
         line = f"{tables.counted(len(self.possible), 'candidate')} for {tables.counted(len(self.scenes), 'scene')}"
-        lines = [line + (f"; {impossible} more cannot be" if impossible else "")]
-        for why, names in self.product.without.items():
-            lines.append(f"    without {', '.join(names)}: {why}" if all_ else "")
-        return "\n".join(filter(None, lines)) + "\n"
+        lines = [*self.notes, line + (f"; {impossible} more cannot be" if impossible else "")]
+        lines += [f"    without {', '.join(names)}: {why}" for why, names in self.product.without.items()] if all_ else []
+        return "".join(f"{line}\n" for line in lines)

@@ -25,7 +25,8 @@ from .results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
 OF_QUERY = ("near", "margin", "pad", "filter", "ropes", "collapse", "broad", "copy", "narrow", "exact", "read_back")  # stages that follow the tree
-FEWEST = 3  # samples from which intervals are compared
+FEWEST = 3  # samples of a frame, without drift, from which intervals are compared
+FEWEST_OF_BEST = 5  # samples, of all frames, without which nothing is named the best
 LEAST = 0.005  # differences below this are none: the best of two runs differ by more (docs/races.md)
 FAR = 3  # ratio from which fewer samples are enough
 ERROR = 0.05
@@ -42,6 +43,8 @@ class Row:
     tied: bool = False  # the best is not better by more than the noise
     complete: bool = True  # measured in every frame
     by_scene: list[float] = field(default_factory=list)  # the ratio of each scene, if there are several
+    low: float = math.nan  # ends of its interval in multiples of the best; NaN where it is not ranked by time
+    high: float = math.nan
 
     @property
     def first(self) -> Cell:
@@ -51,18 +54,9 @@ class Row:
     def bytes(self) -> float:
         return self.amount("memory")
 
-    @property
-    def sah(self) -> float:
-        """Returns the mean surface area cost, or NaN if it is unknown."""
-        return self.amount("cost")
-
     def amount(self, objective: str) -> float:
         """Returns the mean amount that an objective of AMOUNTS ranks by, or 0 for a time."""
         return mean([AMOUNTS[objective](cell) for cell in self.cells]) if objective in AMOUNTS else 0
-
-    @property
-    def is_on_host(self) -> bool:
-        return families.of_cell(self.first) in families.ON_HOST
 
     def host_ns(self, frames: Container[int]) -> float:
         """Returns the mean over these frames by the host's clock, with the copies of vertices to the device and of what is found back."""
@@ -70,8 +64,9 @@ class Row:
                      for cell in self.cells if cell.frame in frames])
 
     @property
-    def is_right(self) -> bool:
-        return all(cell.checked for cell in self.cells)
+    def counts(self) -> list[int]:
+        """Returns the number of samples of each cell that statistics use."""
+        return [len(cell.samples) for cell in self.cells]
 
     def mean(self, counter: str) -> float:
         """Returns the mean of a counter over the cells, or NaN if one lacks it."""
@@ -173,27 +168,17 @@ def was_beaten(cell: Cell) -> bool:
     return cell.raw.get("sampling", {}).get("stopped") == "beaten"
 
 
-class Frame:
-    """All cells of one frame, and the one that the others are compared with."""
-
-    def __init__(self, cells: list[Cell], measure: Measure) -> None:
-        self.measure = measure
-        stayed = [cell for cell in cells if not was_beaten(cell)] or cells
-        self.base = min(stayed, key=measure.middle)
-
-    def base_until(self, order: float) -> float:
-        """Returns the median of the base's samples up to the given order, or its first sample's value."""
-        values = self.measure.values(self.base)
-        until = [value for value, raw in zip(values, counted(self.base.all_samples), strict=True) if raw["order"] <= order]
-        return median(until or values[:1])
-
-    def level(self, cell: Cell) -> float:
-        """Returns the cell's median, as it would have been while the frame's best cell was sampled."""
-        own = self.measure.middle(cell)
-        if not was_beaten(cell) or cell is self.base:
-            return own
-        beside = self.base_until(counted(cell.all_samples)[-1]["order"])
-        return own * self.measure.middle(self.base) / beside if beside > 0 else own
+def levels(cells: list[Cell], measure: Measure) -> dict[int, float]:
+    """Returns, by id, the median of each cell of a frame, as it would have been while the frame's best cell was sampled: that of a beaten
+    one in proportion to the median of the best's samples up to its own last, or to the best's first sample."""
+    best = min([cell for cell in cells if not was_beaten(cell)] or cells, key=measure.middle)
+    ordered = list(zip([raw["order"] for raw in counted(best.all_samples)], measure.values(best), strict=True))
+    found = {}
+    for cell in cells:
+        last = counted(cell.all_samples)[-1]["order"] if was_beaten(cell) and cell is not best else math.inf
+        beside = median([value for order, value in ordered if order <= last] or [ordered[0][1]])
+        found[id(cell)] = measure.middle(cell) * (measure.middle(best) / beside if beside > 0 else 1)
+    return found
 
 
 def method(cell: Cell) -> tuple[Hashable, ...]:
@@ -201,71 +186,83 @@ def method(cell: Cell) -> tuple[Hashable, ...]:
     return *cell.key("operation", "builder", "collider", "caches"), cell.accuracy.get("method")
 
 
-def interval_of(cell: Cell, measure: Measure) -> tuple[float, float, float]:
-    """Returns the median and the ends of its interval, which also holds the medians of all processes that samples are from."""
-    values = measure.values(cell)
-    ends = [*ends_of(values), *map(measure.middle, cell.processes)]
-    return median(values), min(ends), max(ends)
+def band(row: Row, measure: Measure) -> tuple[float, float]:
+    """Returns the ends of the interval of the row's mean time, in nanoseconds. A cell's interval also holds the medians of all processes
+    that its samples are from."""
+    parts = [(measure.middle(cell), [*ends_of(measure.values(cell)), *map(measure.middle, cell.processes)]) for cell in row.cells]
+    below, above = math.hypot(*(middle - min(ends) for middle, ends in parts)), math.hypot(*(max(ends) - middle for middle, ends in parts))
+    middle, scale = sum(middle for middle, _ in parts), row.scale / len(parts)
+    return scale * (middle - below), scale * (middle + above)
 
 
-def margins(row: Row, measure: Measure) -> tuple[float, float, float]:
-    """Returns the sum of the medians of the row's cells, and by how much its interval goes below and above it."""
-    parts = [interval_of(cell, measure) for cell in row.cells]
-    return (sum(middle for middle, _, _ in parts), math.hypot(*(middle - low for middle, low, _ in parts)),
-            math.hypot(*(high - middle for middle, _, high in parts)))
+def set_ends(row: Row, best: Row, measure: Measure, times: float) -> None:
+    """Sets the ends of the row's interval, of whose time the best's fits into it so many `times`. It begins at the median of what was
+    beaten, because the race has compared the intervals. Few samples tell only what is far apart."""
+    row.low, row.high = math.nextafter(times / FAR, math.inf), times  # FAR times is far enough
+    if min(row.counts + best.counts) >= FEWEST:
+        row.low, row.high = (times * end / max(row.ns, 1) for end in band(row, measure))
+    if any(map(was_beaten, row.cells)):
+        row.low = times
 
 
-def is_tied(row: Row, best: Row, measure: Measure) -> bool:
-    """True if the intervals of both overlap or the times hardly differ. Few samples tell only what is far apart."""
-    if row is best:
-        return True
-    if not row.complete:
-        return False
-    if measure.objective not in AMOUNTS and row.ratio < 1 + LEAST:
-        return True
-    if any(was_beaten(cell) for cell in row.cells):
-        return False
-    if min(len(cell.samples) for cell in row.cells + best.cells) < FEWEST:
-        return row.ns < FAR * best.ns
-    (own, below, _), (other, _, above) = margins(row, measure), margins(best, measure)
-    return own - below <= other + above
+def chosen(rows: Sequence[Row]) -> Row | None:
+    """Returns which of the ranked rows to take: of those that tie with the best and whose median is in its interval, the one that holds
+    the least memory, to two digits; then the plain builder of a family, as apetrei before apetrei-fused; then the fastest. What is built
+    as printed comes last. None if none has enough samples."""
+    def place(row: Row) -> tuple[float, ...]:
+        held, builder = math.inf if math.isnan(row.bytes) else float(f"{row.bytes:.1e}"), row.first.builder
+        return "printed" in builder, held, any(builder.startswith(f"{one.first.builder}-") for one in near), row.ratio, row.ns
+
+    near = [row for row in rows if row is rows[0] or (row.tied and row.ratio <= rows[0].high)]
+    enough = [row for row in near if min(row.counts) >= FEWEST and sum(len(cell.all_samples) for cell in row.cells) >= FEWEST_OF_BEST]
+    return min(enough, key=place, default=None)
 
 
 def rows_of_scene(cells: list[Cell], measure: Measure) -> list[Row]:
     """Ranks the cells of one scene, all of which have times. Rows that lack frames come after the others of a like ratio."""
-    objective = measure.objective
-    frames = {number: Frame(there, measure) for number, there in grouped(cells, lambda cell: cell.frame).items()}
-    levels = {id(cell): frames[cell.frame].level(cell) for cell in cells}
-    rows = []
+    objective, level, rows = measure.objective, {}, []
+    frames = grouped(cells, lambda cell: cell.frame)
+    for there in frames.values():
+        level |= levels(there, measure)
     for there in grouped(cells, method).values():
-        ns, own = mean([levels[id(cell)] for cell in there]), mean([measure.middle(cell) for cell in there])
+        ns, own = mean([level[id(cell)] for cell in there]), mean([measure.middle(cell) for cell in there])
         rows.append(Row(there, ns, ns / own if own > 0 else 1, complete=len({cell.frame for cell in there}) == len(frames)))
 
-    def total(row: Row, numbers: set[int]) -> float:
-        return sum(levels[id(cell)] for cell in row.cells if cell.frame in numbers)
+    def total(row: Row, numbers: Container[int]) -> float:
+        return sum(level[id(cell)] for cell in row.cells if cell.frame in numbers)
 
-    full = [row for row in rows if row.complete] or rows
-    best = min(full, key=lambda row: (row.amount(objective), total(row, set(frames))))
+    full = [row for row in rows if row.complete and (objective in AMOUNTS or min(row.counts) >= FEWEST)] or [row for row in rows if row.complete] or rows
+    best = min(full, key=lambda row: (row.amount(objective), total(row, frames)))
     for row in rows:
         there = {cell.frame for cell in row.cells} & {cell.frame for cell in best.cells}
         own, least = row.amount(objective), best.amount(objective)
         row.ratio = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
-        if there and not measure.by_wall and row.is_on_host != best.is_on_host:
+        on_host = [families.of_cell(one.first) in families.ON_HOST for one in (row, best)]
+        if there and not measure.by_wall and on_host[0] != on_host[1]:
             row.ratio = row.host_ns(there) / best.host_ns(there)
+        set_ends(row, best, measure, row.ratio if objective not in AMOUNTS else row.ns / max(best.ns, 1e-9))
         if objective in AMOUNTS:
             row.ratio = own / least if least > 0 else 1 if own == least else math.inf
-        row.tied = own == least and is_tied(row, best, measure)
+    for row in rows:  # the best's interval is there
+        is_as_fast = row.low <= best.high or (objective not in AMOUNTS and row.ratio < 1 + LEAST)
+        row.tied = row is best or (row.complete and row.amount(objective) == best.amount(objective) and is_as_fast)
+        row.low = math.nan if objective in AMOUNTS else row.low
     return sorted(rows, key=lambda row: (row is not best, row.ratio, not row.complete, row.ns))
 
 
-def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:
-    """Ranks the pipelines that have a time in every scene by the geometric mean of their ratios."""
+def over_scenes(scenes: dict[str, list[Row]], objective: str) -> list[Row]:
+    """Ranks the pipelines that have a time in every scene by the geometric mean of their ratios; so is the noise."""
     found = grouped(itertools.chain(*scenes.values()), lambda row: method(row.first))
-    every = [rows for rows in found.values() if len(rows) == len(scenes) and all(row.ratio > 0 for row in rows)]
-    merged = [Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]), 1,
-                  float(numpy.exp(numpy.mean(numpy.log([row.ratio for row in rows])))), all(row.tied for row in rows),
-                  all(row.complete for row in rows), [row.ratio for row in rows]) for rows in every]
-    return sorted(merged, key=lambda row: row.ratio)
+    merged = []
+    for rows in found.values():
+        if len(rows) == len(scenes) and all(row.ratio > 0 for row in rows):
+            ratio, low, high = (float(numpy.exp(numpy.mean(numpy.log([getattr(row, key) for row in rows])))) for key in ("ratio", "low", "high"))
+            merged.append(Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]), 1, ratio,
+                              all(row.tied for row in rows), all(row.complete for row in rows), [row.ratio for row in rows], low, high))
+    merged.sort(key=lambda row: row.ratio)
+    for row in merged:
+        row.tied = row is merged[0] or (row.complete and row.low <= merged[0].high) if objective not in AMOUNTS else row.tied
+    return merged
 
 
 def ranked(cells: Iterable[Cell], objective: str = "frame", trusts_stages: bool = False) -> Ranking:
@@ -282,6 +279,6 @@ def ranked(cells: Iterable[Cell], objective: str = "frame", trusts_stages: bool 
     placed = [cell for cell in timed if cell not in unplaced]
     measure = Measure(objective, not trusts_stages and is_by_wall(placed))
     scenes = {scene: rows_of_scene(later(there), measure) for scene, there in grouped(placed, lambda cell: cell.scene).items()}
-    rows = next(iter(scenes.values())) if len(scenes) == 1 else over_scenes(scenes)
+    rows = next(iter(scenes.values())) if len(scenes) == 1 else over_scenes(scenes, objective)
     without = [cell for cell in cells if not cell.has_times and cell.verdict != "differs"]
     return Ranking(objective, measure.by_wall, rows, scenes, wrong, without, unplaced)

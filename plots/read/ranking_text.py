@@ -1,5 +1,5 @@
 """The answer that a ranking gives: which builder or pipeline to take, how much faster it is than the next family, which others are
-no slower within noise, and the command that measures it alone. Warns of methods from outside whose stages leave out most of their time."""
+as fast within noise, and the command that measures it alone. Warns of methods from outside whose stages leave out most of their time."""
 import shlex
 from collections.abc import Sequence
 
@@ -7,10 +7,10 @@ from ..words import names, terminal
 from ..words.tables import counted, duration, size
 from . import families
 from .cells import Cell, grouped
-from .ranking import Ranking, Row, ranked
+from .ranking import FEWEST, FEWEST_OF_BEST, Ranking, Row, chosen, method, ranked
 
 UNIT = {"frame": "a frame", "query": "a query", "build": "a build", "memory": ""}
-MOST_TIED = 3  # that the sentence names
+MOST_TIED = 5  # that the sentence names
 MOST_WARNINGS = 5
 BY_WALL = " by the wall clock"
 QUESTION = ("adjacent", "narrow", "pairs_of", "first", "within")  # options of a collider that change what is found
@@ -25,36 +25,17 @@ def options_of(cell: Cell) -> dict[str, str]:
     return shown
 
 
-def words_of(key: str, value: str) -> str:
-    if key == "order":
-        return f"order {value}"
-    return names.OPTIONS[key][1].format(value)
-
-
 def called(cell: Cell) -> str:
     """Returns "`block` over `oibvh-single`, order hilbert30"."""
     head = f"`{cell.builder}`" if cell.collider is None else f"`{cell.collider}`"
     if cell.collider is not None and cell.builder != "none":
         head += f" over `{cell.builder}`"
-    return ", ".join([head, *(words_of(key, value) for key, value in options_of(cell).items())])
+    return ", ".join([head, *("order " * (key == "order") + names.OPTIONS[key][1].format(value) for key, value in options_of(cell).items())])
 
 
 def label(cell: Cell) -> str:
     """Returns the same for tables and figures: "block over oibvh-single, order hilbert30"."""
     return called(cell).replace("`", "")
-
-
-def beside(cell: Cell, best: Cell) -> str:
-    """Returns in what a cell differs from the best: "`bvtt`", "`bvtt` over `karras`", "order morton30"."""
-    if "none" in (cell.builder, best.builder):
-        return called(cell)
-    parts = [f"`{cell.collider}`"] if cell.collider != best.collider else []
-    if cell.builder != best.builder:
-        parts = [f"`{cell.collider}` over `{cell.builder}`" if cell.collider else f"`{cell.builder}`"]
-    own, other = options_of(cell), options_of(best)
-    parts += [words_of(key, own.get(key, names.USUAL[key])) for key in names.OPTIONS if own.get(key) != other.get(key)
-              and not (key == "leaves" and ("boxes" in own or families.of_cell(cell) in families.OWN_LEAVES))]
-    return ", ".join(parts) or called(cell)
 
 
 def family(row: Row) -> str:
@@ -66,69 +47,78 @@ def best_of_families(rows: Sequence[Row]) -> list[Row]:
     return [own[0] for own in grouped(rows, family).values()]
 
 
-def kind_of(row: Row) -> tuple[str, str | None]:
-    return family(row), row.first.collider
+def shown_of(rows: Sequence[Row], most: int, take: Row | None) -> list[Row]:
+    """Returns the best of each family, the one to take, and the best `most` of the others, in their order."""
+    kept = {method(row.first) for row in [*best_of_families(rows), *([take] if take else [])]}
+    kept |= {method(row.first) for row in [row for row in rows if method(row.first) not in kept][:most]}
+    return [row for row in rows if method(row.first) in kept]
 
 
 def number(ratio: float) -> str:
     return f"{ratio:.2f}" if ratio < 1.995 else f"{ratio:.1f}" if ratio < 99.5 else f"{ratio:.0f}"
 
 
-def next_words(found: Ranking) -> str:
-    """Returns how much better the best is than the next family, or else than the next row; empty if that is within the noise."""
-    best = found.rows[0]
-    others = [row for row in found.rows[1:] if family(row) != family(best)]
-    rival = others[0] if others else next((row for row in found.rows[1:] if not row.tied), None)
-    if rival is None or rival.tied:
+def beside(cell: Cell, best: Cell) -> str:
+    """Returns the full name of what is compared with the best. The usual order is named too where the best has another."""
+    is_plain = cell.builder != "none" and "order" in options_of(best) and "order" not in options_of(cell)
+    sorts = families.of_cell(cell) not in families.ON_HOST
+    return called(cell) + f", order {names.USUAL['order']}" * (is_plain and sorts)
+
+
+def next_words(found: Ranking, best: Row) -> str:
+    """Returns how much better the best is than the next family none of which ties with it, or else than the next row that does not;
+    empty without either."""
+    others = [rows[0] for rows in grouped(found.rows, family).values() if not any(row is best or row.tied for row in rows)]
+    rival = others[0] if others else next((row for row in found.rows if row is not best and not row.tied), None)
+    if rival is None:
         return ""
     has_tree = rival.first.builder != "none" and families.of_collider(rival.first.collider or "") is None
     name = rival.first.builder if has_tree else rival.first.collider
     who = f"the next family (`{name}`)" if others else f"the next, {beside(rival.first, best.first)}"
     by = rival.ratio / best.ratio if best.ratio > 0 else rival.ratio
     if found.objective == "memory":
-        return f"; {who} holds {number(by)} times as much"
+        return f"; {who}{',' * (not others)} holds {number(by)} times as much"
     return f", {number(by)} times as fast as {who}"
 
 
-def tied_words(found: Ranking) -> str:
-    best = found.rows[0]
-    tied = [row for row in found.rows[1:] if row.tied]
-    if not tied:
-        return ""
-    # The first of each kind: another family or collider says more than another order.
-    kinds = {kind_of(row): row for row in reversed(tied)}
-    others = [row for row in tied if row is kinds[kind_of(row)] and kind_of(row) != kind_of(best)]
-    shown = (others or tied)[:MOST_TIED]
+def tied_words(found: Ranking, best: Row) -> str:
+    """Returns the full names of those that tie with the best, first one of each other family and collider, and how many more there are."""
+    tied = [row for row in found.rows if row.tied and row is not best]
+    kinds = {(family(row), row.first.collider): row for row in reversed([*tied, best])}
+    shown = sorted(tied, key=lambda row: not any(row is one for one in kinds.values()))[:MOST_TIED]
     said = [beside(row.first, best.first) for row in shown]
-    if len(tied) == 1:
-        return f"; {said[0]} is no slower within noise"
-    more = [f"{len(tied) - len(shown)} more"] if len(tied) > len(shown) else []
-    return "; no slower within noise: " + "; ".join([*said, *more])
+    said += [f"{len(tied) - len(shown)} more"] if len(tied) > len(shown) else []
+    return f"; as fast within noise: {'; '.join(said)}" if said else ""
 
 
 def error_words(row: Row) -> str:
-    if row.is_right and all(cell.verdict == "agrees" for cell in row.cells):
-        return ""
-    if not row.is_right:
+    if not all(cell.checked for cell in row.cells):
         return "; its answer was not checked"
     return f"; of what it finds {row.wrong}" if row.wrong else ""
+
+
+def amount_words(found: Ranking, row: Row) -> str:
+    """Returns the time or the bytes of a row: "100 us a frame"."""
+    by_wall = BY_WALL * found.by_wall
+    if len(found.scenes) > 1:
+        what = "memory" if found.objective == "memory" else "time"
+        return (f"{number(row.ratio)} times the {what} of each scene's best, in the geometric mean over {len(found.scenes)} scenes"
+                + by_wall * (what == "time"))
+    if found.objective == "memory":
+        return f"{size(row.bytes)} and {duration(row.ns)} {'a build' if row.first.collider is None else 'a frame'}{by_wall}"
+    least = f" (the least: {duration(found.rows[0].ns)})" if row is not found.rows[0] else ""
+    return f"{duration(row.ns)} {UNIT[found.objective]}{least}{by_wall}"
 
 
 def sentence(found: Ranking) -> str:
     """Returns the answer as one sentence; empty if nothing has times."""
     if not found.rows:
         return ""
-    best = found.rows[0]
-    if len(found.scenes) > 1:
-        what = "memory" if found.objective == "memory" else "time"
-        amount = f"{number(best.ratio)} times the {what} of each scene's best, in the geometric mean over {len(found.scenes)} scenes"
-        amount += BY_WALL * (found.by_wall and what == "time")
-    elif found.objective == "memory":
-        amount = f"{size(best.bytes)} and {duration(best.ns)} {'a build' if best.first.collider is None else 'a frame'}"
-        amount += BY_WALL * found.by_wall
-    else:
-        amount = f"{duration(best.ns)} {UNIT[found.objective]}{BY_WALL * found.by_wall}"
-    return f"take {called(best.first)}: {amount}{next_words(found)}{tied_words(found)}{error_words(best)}."
+    best, least = chosen(found.rows), found.rows[0]
+    if best is None:
+        return (f"no winner: {called(least.first)} is the best so far, {amount_words(found, least)}, by {counted(sum(least.counts), 'sample')} without drift, "
+                f"and a winner needs {FEWEST_OF_BEST}, of each frame {FEWEST} without drift.")
+    return f"take {called(best.first)}: {amount_words(found, best)}{next_words(found, best)}{tied_words(found, best)}{error_words(best)}."
 
 
 def warnings(cells: Sequence[Cell]) -> list[str]:
@@ -155,22 +145,22 @@ def of_cells(cells: Sequence[Cell]) -> str:
     is_ranked = operation in ("build", "collide") and not is_swept and not from_leaves
     if not is_ranked or len({cell.key("builder", "collider") for cell in measured}) < 2:
         return ""
-    races = {cell.raw.get("sampling", {}).get("race", "") for cell in measured}
-    objective = {"query": "query", "memory": "memory"}.get(races.pop() if len(races) == 1 else "", "")
-    said = sentence(ranked(cells, objective or ("build" if operation == "build" else "frame")))
+    said = sentence(ranked(cells, objective_of(measured)))
     return terminal.prose(said) + "\n" if said else ""
+
+
+def objective_of(measured: Sequence[Cell]) -> str:
+    """Returns what cells raced for, or else a frame or a build."""
+    races = {cell.raw.get("sampling", {}).get("race", "") for cell in measured}
+    usual = "build" if all(cell.operation == "build" for cell in measured) else "frame"
+    return {"query": "query", "memory": "memory"}.get(races.pop() if len(races) == 1 else "", usual)
 
 
 def repeated(row: Row, scene: str, words: Sequence[str]) -> str:
     """Returns the command line that measures the row's pipeline or builder alone. `words` are options about the scene, the question
     and the device."""
     cell = row.first
-    line = ["bvhbench", "build" if cell.collider is None else "collide"]
-    if cell.builder != "none":
-        line += ["--builder", cell.builder]
-    if cell.collider is not None:
-        line += ["--collider", cell.collider]
-    for key, value in options_of(cell).items():
-        if key != "no_skip":
-            line += ["--" + key.replace("_", "-"), value]
+    line = ["bvhbench", "build" if cell.collider is None else "collide", *["--builder", cell.builder] * (cell.builder != "none"),
+            *["--collider", str(cell.collider)] * (cell.collider is not None)]
+    line += [word for key, value in options_of(cell).items() if key != "no_skip" for word in ("--" + key.replace("_", "-"), value)]
     return shlex.join([*line, "--scene", scene, *words])

@@ -9,7 +9,7 @@ from plots.console import best_table as page
 from plots.console import run as circumstances
 from plots.draw import style
 from plots.figures import best_bars, overview
-from plots.racing import candidates
+from plots.racing import alone, candidates
 from plots.read import families, ranking, ranking_text, results
 from plots.read.cells import Cell
 
@@ -160,7 +160,8 @@ class ASentence(unittest.TestCase):
         found = ranked(frame("block", NARROW, "oibvh-single", options=order), frame("bvtt", NARROW, "oibvh-single", options=order),
                        frame("group", [190] * 5, "karras"), frame("front", [250] * 5))
         self.assertEqual(ranking_text.sentence(found), "take `block` over `oibvh-single`, order hilbert30, sorted leaves: 100 us a frame, "
-                         "1.90 times as fast as the next family (`karras`); `bvtt` is no slower within noise.")
+                         "1.90 times as fast as the next family (`karras`); as fast within noise: `bvtt` over `oibvh-single`, order hilbert30, "
+                         "sorted leaves.")
         self.assertEqual(ranking_text.repeated(found.rows[0], "my mesh.obj", ["--narrow", "exact"]),
                          "bvhbench collide --builder oibvh-single --collider block --order hilbert30 --leaves sorted "
                          "--scene 'my mesh.obj' --narrow exact")
@@ -169,10 +170,38 @@ class ASentence(unittest.TestCase):
 
     def test_without_another_family_names_the_next(self) -> None:
         found = ranked(frame("leaf", NARROW), frame("leaf", [150] * 5, options={"order": "kd"}))
-        self.assertIn(", 1.50 times as fast as the next, order kd.", ranking_text.sentence(found))
-        many = ranked(*(frame("leaf", NARROW, builder) for builder in ("karras", "perfect", "oibvh-multi", "apetrei", "oibvh-wide4")))
-        self.assertIn("; no slower within noise: ", ranking_text.sentence(many))
-        self.assertIn("; 1 more.", ranking_text.sentence(many))
+        self.assertIn(", 1.50 times as fast as the next, `leaf` over `oibvh-multi`, order kd.", ranking_text.sentence(found))
+        many = ranked(*(frame("leaf", NARROW, builder) for builder in ("karras", "perfect", "oibvh-multi", "apetrei", "oibvh-wide4", "lbvh", "hploc")))
+        self.assertRegex(ranking_text.sentence(many), "; as fast within noise: `leaf` over `[a-z0-9-]+`; .*; 1 more.$")
+
+    def test_compares_families_by_all_that_tie_and_names_ties_in_full(self) -> None:
+        """Of karras one row ties and one does not; all of the grid is slower."""
+        found = ranked(frame("group", NARROW, options={"order": "hilbert30"}), frame("bvtt", [150] * 5, "karras"),
+                       frame("leaf", [101, 102, 103, 104, 105], "karras", memory=9), {**frame("grid", [300] * 5), "builder": {"name": "none"}})
+        self.assertEqual(ranking_text.sentence(found), "take `group` over `oibvh-multi`, order hilbert30: 100 us a frame, 3.0 times as fast as "
+                         "the next family (`grid`); as fast within noise: `leaf` over `karras`, order morton30.")
+
+    def test_takes_the_least_memory_of_those_that_tie_then_the_plain_builder_and_forms_as_printed_last(self) -> None:
+        def taken(*given: tuple[str, int, int]) -> str:
+            found = ranked(*(frame("leaf", [time * 10 + k for k in range(5)], builder, memory=memory) for builder, time, memory in given))
+            return ranking_text.sentence(found).removeprefix("take `leaf` over ").partition(":")[0]
+
+        self.assertEqual(taken(("karras", 100, 5), ("perfect", 100, 4), ("hploc", 200, 3)), "`perfect`")
+        self.assertEqual(taken(("apetrei-fused", 100, 1_010_000), ("apetrei", 100, 1_040_000), ("hploc", 100, 1_060_000)), "`apetrei`")
+        self.assertEqual(taken(("oibvh-single-printed", 100, 3), ("oibvh-single", 100, 5)), "`oibvh-single`")
+        self.assertEqual(taken(("oibvh-single-printed", 100, 3), ("oibvh-single", 200, 5)), "`oibvh-single-printed`")
+        # What ties by noise of its own, far from the best, is not taken.
+        self.assertIn("take `leaf` over `oibvh-multi`: 100 us a frame; as fast within noise: `bvtt`", ranking_text.sentence(ranked(
+            frame("leaf", NARROW, memory=5), frame("bvtt", [90, 95, 130, 131, 132], memory=1))))
+
+    def test_names_no_winner_of_too_few_samples(self) -> None:
+        self.assertEqual(ranking_text.sentence(ranked(frame("leaf", [100] * 4), frame("group", [900] * 4))), "no winner: `leaf` over "
+                         "`oibvh-multi` is the best so far, 100 us a frame, by 4 samples without drift, and a winner needs 5, of each frame 3 without drift.")
+        (drifted := frame("leaf", [100] * 5))["samples"][0]["drifted"] = True
+        self.assertIn("take `leaf`", ranking_text.sentence(ranked(drifted, frame("group", [900] * 4))))
+        self.assertIn("take `leaf`", ranking_text.sentence(ranked(*(frame(name, [time] * 3, number=number) for number in range(3)
+                                                                    for name, time in (("leaf", 100), ("group", 900))))))
+        self.assertEqual(names(ranked(frame("leaf", [90]), frame("group", NARROW))), ["group", "leaf"])  # which is not enough to be first
 
     def test_is_given_for_files_that_have_one_question_and_right_answers(self) -> None:
         def of(*raw: Raw) -> str:
@@ -315,10 +344,21 @@ class ATable(unittest.TestCase):
                        *({**frame("bvtt", [1], options={"order": f"o{place}"}), "status": "skipped",
                           "reason": f"cannot win: it takes {place} ms"} for place in range(2)))
         text = page.text(found)
-        self.assertEqual(text.count("leaf over"), page.MOST_ROWS)
-        self.assertIn("and 3 more; --all\n2 cells skipped: cannot win\n", text)
+        self.assertEqual(text.partition("no winner")[0].count("leaf over"), page.MOST_ROWS + 1)  # and the best of the family
+        self.assertRegex(text, "\nand 2 more; `best --all` and `show --wide` print them\n(.*\n)*2 cells skipped: cannot win\n")
         self.assertIn("bvtt over oibvh-multi, o1: it takes 1 ms\n", page.text(found, True))
-        self.assertEqual(page.text(found, True).count("leaf over"), 15)
+        self.assertEqual(page.text(found, True).partition("no winner")[0].count("leaf over"), 15)
+
+    def test_has_a_mark_where_the_column_beside_it_says_so_and_explains_marks_and_dashes(self) -> None:
+        """`group` was beaten, so its interval begins at its median."""
+        found = ranked(frame("leaf", NARROW, memory=3_000_000, counters={"sah_cost": 7, "pairs_count": 70, "contacts_count": 9}),
+                       frame("bvtt", [101, 102, 103, 104, 105]), frame("group", [100, 104, 104, 106], stopped="beaten"), frame("block", [101] * 4, stopped="beaten"))
+        lines = page.text(found).splitlines()
+        self.assertEqual([line.split()[5:9] for line in lines[1:5]], [["0.100", "1.00", "0.96", "take"], ["0.102", "1.02", "1.00", "="],
+                                                                     ["0.103", "1.03", "0.99", "="], ["0.105", "1.05", "1.02", "0.0"]])
+        self.assertIn(" SAH  pairs  contacts  samples  verdict", lines[0])
+        self.assertRegex(lines[1], " 3.0 +7.00 +70 +9 +5  agrees$")
+        self.assertEqual([line.partition(" ")[0] for line in lines[5:8]], ["=", "take:", "-:"])
 
     def test_says_errors_of_formats(self) -> None:
         made = frame("leaf", NARROW, options={"boxes": "u16", "leaves": "sorted"}, check={"verdict": "counted"})
@@ -340,6 +380,26 @@ class AFigure(unittest.TestCase):
         for objective in ("frame", "query", "memory"):
             drawing = best_bars.draw(run_of(*cells), ranked(*cells, objective=objective))
             self.assertIn(b"group over oibvh-multi", style.content(drawing, ".svg"))
+
+
+    def test_has_the_best_of_each_family_and_five_more(self) -> None:
+        cells = [*(frame("leaf", [100 + place] * 5, options={"order": f"o{place}"}) for place in range(9)), frame("grid", [300] * 5),
+                 frame("leaf", [200] * 5, "karras")]
+        axes, = best_bars.draw(run_of(*cells), ranked(*cells)).axes
+        labels = [label.get_text() for label in axes.get_yticklabels()]
+        self.assertEqual((len(labels), labels[-2:], sum("take" in text.get_text() for text in axes.texts)),
+                         (1 + 5 + 2, ["leaf over karras", "grid over oibvh-multi"], 1))
+
+
+class AnotherRun(unittest.TestCase):
+    def test_is_within_the_interval_of_the_race_or_says_what_differs(self) -> None:
+        race, found = run_of(frame("leaf", NARROW)), ranked(frame("leaf", NARROW))
+        race.document["run"] |= {"copy_rate_bytes_per_s": 24e9, "conditions": {"other_processes": 0.5}}
+        same, slow = run_of(frame("leaf", [101, 102, 103])), run_of(frame("leaf", [200, 201, 202]))
+        slow.document["run"] |= {"copy_rate_bytes_per_s": 12e9, "conditions": {"other_processes": 3.0}}
+        self.assertEqual(alone.compared(same, found.rows[0], found, race), "101 us to 103 us, within the noise of the race's, 98.0 us to 102 us")
+        self.assertEqual(alone.compared(slow, found.rows[0], found, race), "200 us to 202 us, not the race's, 98.0 us to 102 us: the machine copied "
+                         "0.50 times as fast as then, beside 3.0 other processes, then 0.5; and alone, no other candidate runs between samples")
 
 
 LISTS = {"builders": {"oibvh-multi": "trees", "karras": "trees", "oibvh-host": "by threads on the host", "sah-binned": "on a host core",

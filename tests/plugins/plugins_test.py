@@ -155,7 +155,7 @@ def test_a_narrow_phase_is_counted_against_the_oracle():
 def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
     """The program takes 50 times as long as `brute`, and says that it takes a twentieth of its time."""
     slip = wrong("--program", "microseconds")
-    said = expect(0, "collide", *slip, "--plugin", GOOD, "--collider", "plain-microseconds,brute,halves", *QUICK, "--json", "slip.json")
+    said = expect(0, "collide", *slip, "--plugin", GOOD, "--collider", "plain-microseconds,brute,halves", *QUICK[:-1], "5", "--json", "slip.json")
     assert re.match("take `(brute|halves)`: ", said) and " by the wall clock" in said.split("\n")[0], said
     warning = r"\nwarning: torus:200, frame 0: plain-microseconds: its stages take [\d.]+ us, and [\d.]+ ms pass by the wall clock\n"
     by = f"halves, from outside: Halves 1.0 (MIT) by {pathlib.Path(GOOD).name}, on host"
