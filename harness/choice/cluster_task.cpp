@@ -57,7 +57,6 @@ ClusterTask cluster_task_of(const Json& json, const std::string& experiment)
     ClusterTask task;
     task.experiment = experiment;
     task.scene = text_at(json, "scene");
-    task.words = words_of(json);
     read_number(json, "ranks", 1, ClusterTask::most_ranks, task.ranks);
     read_number(json, "simulate", 1, ClusterTask::most_ranks, task.simulates);
     read_number(json, "boxes", 1, ClusterTask::most_boxes, task.boxes);
@@ -70,6 +69,11 @@ ClusterTask cluster_task_of(const Json& json, const std::string& experiment)
     builder.name = text_in(json, "builder", builder.name);
     builder.order = text_in(json, "order", builder.order);
     task.pipeline.collider.name = text_in(json, "collider", task.pipeline.collider.name);
+    Json whole = json;  // `cluster` chooses what is left out by device
+    whole.update({{"builder", builder.name},
+                  {"order", builder.order},
+                  {"collider", task.pipeline.collider.name}});
+    task.words = words_of(whole);
     task.partition =
         value_called<PartitionBy>("partition", text_in(json, "partition", "rcb"), partition_names);
     task.check =

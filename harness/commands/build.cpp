@@ -31,9 +31,13 @@ class Build final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        names_.add_builders(app);
+        app.add_option("--builder", names_.builders, "names of `list builders`")
+            ->delimiter(',')
+            ->required();
         app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
-        names_.add_orders(app);
+        app.add_option("--order", names_.orders, "names of `list orders`")
+            ->delimiter(',')
+            ->default_str(std::string(SeveralNames::paper_order));
         add_choices(app, choice_, [](const Choice& option) {
             return option.of == Choice::Of::builder && option.key != "order";
         });
@@ -90,7 +94,7 @@ private:
         output.replace(dump_text(built_tree(session, choice, input).to_host_tree()));
     }
 
-    SeveralNames names_;
+    SeveralNames names_{.orders = {std::string(SeveralNames::paper_order)}};
     CellChoice choice_;
     std::string scene_;
     int samples_ = 20;

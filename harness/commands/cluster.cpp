@@ -7,6 +7,7 @@
 #include <iostream>
 #include <utility>
 
+#include "collide/best_pipeline.h"
 #include "geometry/error.h"
 #include "geometry/names.h"
 #include "harness/base/failure.h"
@@ -32,12 +33,7 @@ public:
         app.add_option("--ranks", task_.ranks, "processes, each with a device of its own")
             ->check(CLI::Range(1u, ClusterTask::most_ranks));
         app.add_option("--partition", partition_, joined(partition_names))->capture_default_str();
-        app.add_option("--builder", choice_.builder.name, "a name of `list builders`")
-            ->capture_default_str();
-        app.add_option("--order", choice_.builder.order, "a name of `list orders`")
-            ->capture_default_str();
-        app.add_option("--collider", choice_.collider.name, "a name of `list colliders`")
-            ->capture_default_str();
+        names_.add_to(app, 1);
         add_choices(app, choice_, [](const Choice& option) {
             return option.key == "adjacent" || option.key == "narrow" || option.key == "within";
         });
@@ -109,7 +105,7 @@ private:
     {
         task_.partition = value_called<PartitionBy>("partition", partition_, partition_names);
         task_.check = value_called<ClusterCheck>("check", check_, cluster_check_names);
-        task_.pipeline = {choice_.builder, choice_.collider};
+        take_best({});
         task_.wants_pairs = !pairs_.empty();
         task_.wants_contacts = !contacts_.empty();
         for (const std::string& path : {pairs_, contacts_})
@@ -139,9 +135,20 @@ private:
                            " ranks, and there are " + std::to_string(*started));
     }
 
+    void take_best(const BestPipeline& best)
+    {
+        SeveralNames names = names_;
+        chosen_ = names.take_best(best, choice_.builder);
+        choice_.builder.name = names.builders.front();
+        choice_.builder.order = names.orders.front();
+        choice_.collider.name = names.colliders.front();
+        task_.pipeline = {choice_.builder, choice_.collider};
+    }
+
     int simulate(const Invocation& invocation)
     {
         Session session(invocation.common);
+        take_best(best_pipeline(session.device()));
         const OutputRules rules =
             result_rules(invocation.common.force, scene_files(task_.scene, session.scenes()));
         ResultFile results(Output(json_, "--json", rules), invocation.common.force);
@@ -151,13 +158,14 @@ private:
     }
 
     /// Writes the result file, which is not begun before, so that a killed rank leaves nothing, and prints it. Returns the exit code.
-    static int finish(ResultFile& results, Json facts, const Cell& cell, const Session& session,
-                      const Invocation& invocation)
+    int finish(ResultFile& results, Json facts, const Cell& cell, const Session& session,
+               const Invocation& invocation) const
     {
         results.begin(with_cluster_facts(std::move(facts)));
         results.begin_part({});
         results.add(cell);
         results.finish(session.end_of_run());
+        std::cout << (invocation.common.quiet ? "" : chosen_) << std::flush;
         print_tables(results.text(), invocation.common);
         return results.exit_code();
     }
@@ -167,6 +175,7 @@ private:
         CommonOptions common = invocation.common;
         common.device = device_of_rank(common.device, ranks, task_.share_devices);
         Session session(common);
+        take_best(best_pipeline(session.device()));
         const bool is_first = ranks.rank() == 0;
         const OutputRules rules =
             result_rules(common.force, scene_files(task_.scene, session.scenes()));
@@ -191,7 +200,9 @@ private:
     }
 
     ClusterTask task_;
+    SeveralNames names_;
     CellChoice choice_{task_.pipeline.builder, task_.pipeline.collider};
+    std::string chosen_;
     std::string partition_ = "rcb", check_ = "auto";
     std::string json_, pairs_, contacts_, frames_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "collide/best_pipeline.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 #include "harness/base/python.h"
@@ -23,20 +24,16 @@ class Collide final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        names_.builders = {"oibvh-multi"};
         choice_.collider.trees = TreeOver::automatic;
-        names_.add_builders(app);
-        app.add_option("--collider", names_.colliders, "names of `list colliders`")
-            ->delimiter(',')
-            ->required();
+        names_.add_to(app);
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
-        names_.add_orders(app);
         add_choices(app, choice_, [](const Choice& option) {
             // --group-size sets the collider's
             return option.of != Choice::Of::builder ||
                    (option.key != "order" && option.key != "group_size");
         });
         adjacent_ = app.get_option("--adjacent");
+        leaves_ = app.get_option("--leaves");
         app.add_flag("--skips", skips_,
                      "measure each rule of `list skips` switched off as well, and what it saves");
         add_sampling(app, samples_, "timed builds and queries", sampling_);
@@ -52,9 +49,14 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        CollideTask task = this->task();  // reports wrong options before opening the device
+        const SeveralNames asked = names_;
+        take_best({});
+        task();  // reports wrong options before opening the device, which is to be known
         const CommonOptions& common = invocation.common;
         Session session(common);
+        names_ = asked;
+        const std::string chosen = take_best(best_pipeline(session.device()));
+        CollideTask task = this->task();
         const OutputRules rules = result_rules(common.force, files_of(scenes_, session.scenes()));
         const Output pairs(pairs_, "--pairs", rules), contacts(contacts_, "--contacts", rules);
         Output json(json_, "--json", rules);
@@ -68,6 +70,7 @@ public:
         watchdog::resume_after_crash(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.end_of_run());
+        std::cout << (common.quiet ? "" : chosen) << std::flush;
         print_tables(results.text(), common);
         for (const std::string& line : contained_)
             std::cout << line << '\n';
@@ -78,6 +81,18 @@ public:
     }
 
 private:
+    /// Names what nobody named. Returns a line about it.
+    std::string take_best(BestPipeline best)
+    {
+        if (choice_.collider.first)
+            best.collider = "leaf";
+        const bool sorted = choice_.builder.sorted_leaves;
+        const std::string chosen = names_.take_best(best, choice_.builder);
+        if (leaves_->count() > 0)
+            choice_.builder.sorted_leaves = sorted;
+        return chosen;
+    }
+
     /// Throws BadUsage if --pairs or --contacts cannot be written or the collider finds no such list.
     void check_lists(const FrameRange& frames) const
     {
@@ -217,7 +232,7 @@ private:
     SeveralNames names_;
     CellChoice choice_;
     std::vector<std::string> scenes_;
-    const CLI::Option* adjacent_ = nullptr;
+    const CLI::Option *adjacent_ = nullptr, *leaves_ = nullptr;
     bool skips_ = false, containment_ = false;
     std::vector<std::string> contained_;  ///< lines about objects inside others
     int samples_ = 20;
@@ -235,7 +250,7 @@ extern const CommandEntry collide_command = {
     "A frame is timed whole: vertices to tree to pairs, and with --narrow exact to triangles that "
     "intersect. Each frame's pairs are compared with an oracle's. Buffers that overflow are grown "
     "and the frame is done again; the table says so.",
-    {{"bvhbench collide --collider leaf --scene bunny.obj --pairs pairs.csv", "a mesh with itself"},
+    {{"bvhbench collide --scene bunny.obj --pairs pairs.csv", "a mesh with itself"},
      {"bvhbench collide --builder oibvh-single,karras --collider leaf,block --scene torus:100k",
       "four pipelines, sampled in turn"},
      {"bvhbench collide --collider group --scene cloth-ball:20000 --frames 0: --adjacent drop "

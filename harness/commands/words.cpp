@@ -134,21 +134,36 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
         ->transform(a_number(1000, true));
 }
 
-void SeveralNames::add_builders(CLI::App& app)
+void SeveralNames::add_to(CLI::App& app, int most)
 {
-    CLI::Option* option =
-        app.add_option("--builder", builders, "names of `list builders`")->delimiter(',');
-    if (builders.empty())
-        option->required();
-    else
-        option->default_str(builders.front());
+    const auto add = [&](const char* option, std::vector<std::string>& names, const char* help) {
+        app.add_option(option, names, help)->delimiter(',')->expected(1, most);
+    };
+    add("--builder", builders, "names of `list builders`; left out: the fastest");
+    add("--order", orders,
+        "names of `list orders`; left out: the fastest, after --builder morton30");
+    add("--collider", colliders, "names of `list colliders`; left out: the fastest");
 }
 
-void SeveralNames::add_orders(CLI::App& app)
+std::string SeveralNames::take_best(const BestPipeline& best, BuilderChoice& builder)
 {
-    app.add_option("--order", orders, "names of `list orders`")
-        ->delimiter(',')
-        ->default_str(orders.front());
+    std::string chosen;
+    if (colliders.empty())
+        chosen = '`' + colliders.emplace_back(best.collider) + '`';
+    const bool is_open = builders.empty();
+    if (is_open)
+        builders.emplace_back(best.builder);
+    if (orders.empty())
+        orders.emplace_back(is_open ? best.order : paper_order);
+    builder.sorted_leaves |= is_open;
+    if (is_open && std::ranges::any_of(colliders, [](const std::string& name) {
+            return find_collider(name).needs_tree;
+        }))
+        chosen += (chosen.empty() ? "" : " over ") + builders[0] + ", order " + orders[0];
+    return chosen.empty() ? ""
+                          : chosen +
+                                ": the fastest of ours on this device; --builder, --order and "
+                                "--collider name others\n";
 }
 
 std::vector<CellChoice> SeveralNames::combined_with(const CellChoice& choice) const

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "collide/best_pipeline.h"
 #include "harness/base/common_options.h"
 #include "harness/choice/choices.h"
 #include "harness/choice/sampling.h"
@@ -18,10 +19,15 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
 
 /// Builders, orders and colliders of a command line. Each may be several names, separated by commas or blanks.
 struct SeveralNames {
-    std::vector<std::string> builders, orders{"morton30"}, colliders;
+    static constexpr std::string_view paper_order = "morton30";
+    std::vector<std::string> builders, orders, colliders;
 
-    void add_builders(CLI::App& app);
-    void add_orders(CLI::App& app);
+    /// Adds the options of all three, which take `most` names each and may be left out.
+    void add_to(CLI::App& app, int most = CLI::detail::expected_max_vector_size);
+
+    /// Names the best where nothing is named. Leaves are sorted if the builder is the best; an order is then the best's too, or else the
+    /// paper's. Returns a line about what it named; nothing if all was. Throws BadUsage for an unknown collider.
+    std::string take_best(const BestPipeline& best, BuilderChoice& builder);
 
     /// Returns `choice` with each combination of the names. A collider that queries no tree is combined once, and a
     /// builder whose leaves have an order of their own once with no order. Throws BadUsage for
