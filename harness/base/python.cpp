@@ -19,11 +19,16 @@
 namespace bvhbench {
 namespace {
 
+std::filesystem::path program() { return std::filesystem::read_symlink("/proc/self/exe"); }
+
+/// Returns the script in the named folder, else beside the installed program, else where the program was built.
 std::filesystem::path commands_script()
 {
     const std::string named = environment("BVHBENCH_HOME");
-    const std::filesystem::path home = named.empty() ? build_info.source_root : named;
-    const std::filesystem::path path = home / "plots" / "__main__.py";
+    const auto installed = program().parent_path().parent_path() / "share" / "bvhbench";
+    const std::string built = exists(installed) ? installed : build_info.source_root;
+    const auto path =
+        std::filesystem::path(named.empty() ? built : named) / "plots" / "__main__.py";
     if (!std::filesystem::exists(path))
         throw Unavailable(path.string() +
                           " is not there (BVHBENCH_HOME names the folder with plots/)");
@@ -76,9 +81,7 @@ void become_python(const std::vector<std::string>& words)
     for (std::string& word : all)
         argv.push_back(word.data());
     argv.push_back(nullptr);
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    setenv("BVHBENCH_PROGRAM", program.c_str(), 1);
+    setenv("BVHBENCH_PROGRAM", program().c_str(), 1);
     setenv("BVHBENCH_HOST_BYTES", std::to_string(host_memory_left()).c_str(), 1);
     execvp(argv.front(), argv.data());
     throw Unavailable(all.front() + " cannot be run: " + std::strerror(errno));

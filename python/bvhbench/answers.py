@@ -33,9 +33,9 @@ def read(paths: Path | Iterable[Path], counters: bool = False) -> "pandas.DataFr
 
 def best(points, faces, device: str | int = "", *, goal: str = "frame", **options) -> "pandas.DataFrame":
     """Runs `bvhbench best` on a mesh, as Tree takes it, and returns a row a builder and collider, best first: `ns` a frame, its `ratio` to
-    the best, whether it is `tied` with it, `bytes` of memory, and `sah`, the tree's surface area cost. attrs["sentence"] says which to
-    take. `goal` is "frame", "query", "build" or "memory"; `options` are those of the command, such as adjacent="drop", narrow="exact" or
-    max_samples=5.
+    the best, whether it is `tied` with it and whether it is the one to `take`, `bytes` of memory, and `sah`, the tree's surface area cost.
+    attrs["sentence"] says which to take. `goal` is "frame", "query", "build" or "memory"; `options` are those of the command, such as
+    adjacent="drop", narrow="exact" or max_samples=5.
 
     Takes a minute or so. Raises Unavailable if there is no program, and Error with its sentence if it fails."""
     import pandas
@@ -53,8 +53,10 @@ def best(points, faces, device: str | int = "", *, goal: str = "frame", **option
         if not answer.exists():
             raise Error(done.stderr.strip().rpartition("\n")[2].removeprefix("bvhbench: "))
         found = ranking.ranked(results.everything(answer).all_cells, goal)
+    take = ranking.chosen(found.rows)
     rows = [{"builder": row.first.builder, "order": dict(row.first.options).get("order"), "collider": row.first.collider, "ns": row.ns,
-             "ratio": row.ratio, "tied": row.tied, "bytes": row.bytes, "sah": row.sah, "right": row.is_right} for row in found.rows]
+             "ratio": row.ratio, "tied": row.tied, "take": row is take, "bytes": row.bytes, "sah": row.amount("cost"),
+             "right": all(cell.checked for cell in row.cells)} for row in found.rows]
     table = pandas.DataFrame(rows)
     table.attrs["sentence"] = ranking_text.sentence(found) if found.rows else ""
     return table
