@@ -72,9 +72,7 @@ def next_words(found: Ranking, best: Row) -> str:
     rival = others[0] if others else next((row for row in found.rows if row is not best and not row.tied), None)
     if rival is None:
         return ""
-    has_tree = rival.first.builder != "none" and families.of_collider(rival.first.collider or "") is None
-    name = rival.first.builder if has_tree else rival.first.collider
-    who = f"the next family (`{name}`)" if others else f"the next, {beside(rival.first, best.first)}"
+    who = f"the next family, {family(rival)} ({beside(rival.first, best.first)})" if others else f"the next, {beside(rival.first, best.first)}"
     by = rival.ratio / best.ratio if best.ratio > 0 else rival.ratio
     if found.objective == "memory":
         return f"; {who}{',' * (not others)} holds {number(by)} times as much"

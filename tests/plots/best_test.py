@@ -160,13 +160,13 @@ class ASentence(unittest.TestCase):
         found = ranked(frame("block", NARROW, "oibvh-single", options=order), frame("bvtt", NARROW, "oibvh-single", options=order),
                        frame("group", [190] * 5, "karras"), frame("front", [250] * 5))
         self.assertEqual(ranking_text.sentence(found), "take `block` over `oibvh-single`, order hilbert30, sorted leaves: 100 us a frame, "
-                         "1.90 times as fast as the next family (`karras`); as fast within noise: `bvtt` over `oibvh-single`, order hilbert30, "
-                         "sorted leaves.")
+                         "1.90 times as fast as the next family, radix trees (`group` over `karras`, order morton30); as fast within noise: "
+                         "`bvtt` over `oibvh-single`, order hilbert30, sorted leaves.")
         self.assertEqual(ranking_text.repeated(found.rows[0], "my mesh.obj", ["--narrow", "exact"]),
                          "bvhbench collide --builder oibvh-single --collider block --order hilbert30 --leaves sorted "
                          "--scene 'my mesh.obj' --narrow exact")
         alone = ranked(frame("leaf", NARROW), frame("grid", [210] * 5))
-        self.assertIn("2.1 times as fast as the next family (`grid`).", ranking_text.sentence(alone))
+        self.assertIn("2.1 times as fast as the next family, hierarchical grid (`grid` over `oibvh-multi`).", ranking_text.sentence(alone))
 
     def test_without_another_family_names_the_next(self) -> None:
         found = ranked(frame("leaf", NARROW), frame("leaf", [150] * 5, options={"order": "kd"}))
@@ -179,7 +179,7 @@ class ASentence(unittest.TestCase):
         found = ranked(frame("group", NARROW, options={"order": "hilbert30"}), frame("bvtt", [150] * 5, "karras"),
                        frame("leaf", [101, 102, 103, 104, 105], "karras", memory=9), {**frame("grid", [300] * 5), "builder": {"name": "none"}})
         self.assertEqual(ranking_text.sentence(found), "take `group` over `oibvh-multi`, order hilbert30: 100 us a frame, 3.0 times as fast as "
-                         "the next family (`grid`); as fast within noise: `leaf` over `karras`, order morton30.")
+                         "the next family, hierarchical grid (`grid`); as fast within noise: `leaf` over `karras`, order morton30.")
 
     def test_takes_the_least_memory_of_those_that_tie_then_the_plain_builder_and_forms_as_printed_last(self) -> None:
         def taken(*given: tuple[str, int, int]) -> str:
@@ -263,7 +263,7 @@ class AMethodFromOutside(InFolder):
         found = ranked(self.slip, *self.ours)
         self.assertEqual((names(found), [row.ratio for row in found.rows]), (["group", "leaf", "fast"], [1, 1.5, 9002 / 1200]))
         self.assertEqual([row.tied for row in found.rows], [True, False, False])
-        self.assertIn("take `group` over `oibvh-multi`: 1.20 ms a frame by the wall clock, 7.5 times as fast as the next family (`fast`).",
+        self.assertIn("take `group` over `oibvh-multi`: 1.20 ms a frame by the wall clock, 7.5 times as fast as the next family, Theirs (`fast`).",
                       ranking_text.sentence(found))
         self.assertIn(" wall ms ", page.text(found))
         self.assertEqual(names(ranked(*self.ours)), ["leaf", "group"])  # by their stages
