@@ -281,4 +281,24 @@ int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& c
     }
 }
 
+std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input)
+{
+    std::vector<bool> faces(input.faces.size()), points(input.points.size());
+    const auto see = [&](uint triangle) {
+        if (faces[triangle])
+            return;
+        faces[triangle] = true;
+        const Face face = input.faces[triangle];
+        points[face.a] = points[face.b] = points[face.c] = true;
+    };
+    for (const Pair pair : pairs) {
+        see(pair.a);
+        see(pair.b);
+    }
+    const std::int64_t frames = input.is_swept() ? 2 : 1;
+    const std::int64_t point = input.is_wide() ? sizeof(WidePoint) : sizeof(Point);
+    return std::count(faces.begin(), faces.end(), true) * std::int64_t{sizeof(Face)} +
+           std::count(points.begin(), points.end(), true) * frames * point;
+}
+
 }  // namespace bvhbench

@@ -143,4 +143,8 @@ bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, 
 int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
                   const Buffer<uint>& candidate_counters, Queue& queue);
 
+/// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once, points of a swept input in both
+/// frames: the least that a narrow phase must read (docs/counters.md, Bytes moved).
+std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input);
+
 }  // namespace bvhbench

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "collide/oracles/sweep.h"
+#include "geometry/error.h"
 
 namespace bvhbench {
 
@@ -46,6 +47,27 @@ PairList touching_pairs(std::span<const Point> points, std::span<const Face> fac
                         const ObjectFilter& filter)
 {
     return touching_pairs(face_boxes(points, faces), faces, keep_adjacent, objects, among, filter);
+}
+
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces)
+{
+    if (points.size() >= 1u << 24)
+        throw Unavailable("pairs of boxes of doubles are those of fewer than 2^24 points");
+    // Overlap depends only on the order of coordinates on each axis. Each coordinate is therefore replaced by its rank on its
+    // axis, an integer that a float holds exactly.
+    std::vector<Point> places(points.size());
+    for (const auto& [wide, narrow] :
+         {std::pair(&WidePoint::x, &Point::x), std::pair(&WidePoint::y, &Point::y),
+          std::pair(&WidePoint::z, &Point::z)}) {
+        std::vector<double> sorted(points.size());
+        std::ranges::transform(points, sorted.begin(), wide);
+        std::ranges::sort(sorted);
+        for (std::size_t k = 0; k < points.size(); ++k)
+            places[k].*narrow = static_cast<float>(
+                std::lower_bound(sorted.begin(), sorted.end(), points[k].*wide) - sorted.begin());
+    }
+    return touching_pairs(places, faces, true);
 }
 
 }  // namespace bvhbench

@@ -5,6 +5,7 @@
 
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/wanted_pairs.h"
+#include "geometry/moving_query.h"
 
 namespace bvhbench {
 
@@ -27,6 +28,10 @@ PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},
                         Among among = Among::all, const ObjectFilter& filter = {});
+
+/// Returns the pairs of triangles whose boxes in double overlap. Throws Unavailable for 2^24 points or more.
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces);
 
 /// The same pairs by the hybrid of segment tree and scan in CGAL's package Box_intersection_d [Zomorodian2000], on all cores of the
 /// host. Boxes with a NaN, or with a minimum above their maximum, overlap none. Only in builds with CGAL.

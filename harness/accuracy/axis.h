@@ -136,10 +136,6 @@ std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how);
 /// bits stores them: each coordinate is rounded to the nearest position and then to a float.
 std::vector<Point> on_a_grid(std::span<const Point> points, unsigned bits);
 
-/// Returns the reference: the pairs of triangles whose boxes in double overlap. Throws Unavailable for 2^24 points or more.
-PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
-                                      std::span<const Face> faces);
-
 /// A method of the axis sums: a way to add up the surface area cost (SAH) of a tree.
 struct SumMethod {
     std::string_view name;

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "builders/stages/codes.h"
-#include "collide/oracles/box_pairs.h"
-#include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 
 namespace bvhbench {
@@ -105,25 +103,6 @@ std::vector<Point> on_a_grid(std::span<const Point> points, unsigned bits)
             p.*narrow = static_cast<float>(low + cell * std::round((p.*narrow - low) / cell));
     }
     return moved;
-}
-
-PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
-                                      std::span<const Face> faces)
-{
-    if (points.size() >= 1u << 24)
-        throw Unavailable("the axis input takes scenes of fewer than 2^24 points");
-    // Overlap depends only on the order of coordinates on each axis. Each coordinate is therefore replaced by its rank on its
-    // axis, an integer that a float holds exactly.
-    std::vector<Point> places(points.size());
-    for (const auto& [wide, narrow] : axes) {
-        std::vector<double> sorted(points.size());
-        std::ranges::transform(points, sorted.begin(), wide);
-        std::ranges::sort(sorted);
-        for (std::size_t k = 0; k < points.size(); ++k)
-            places[k].*narrow = static_cast<float>(
-                std::lower_bound(sorted.begin(), sorted.end(), points[k].*wide) - sorted.begin());
-    }
-    return touching_pairs(places, faces, true);
 }
 
 }  // namespace bvhbench

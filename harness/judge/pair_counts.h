@@ -45,10 +45,6 @@ std::vector<Pair> doubled_pairs(std::vector<Pair>& found);
 std::string examples(const PairList& found, const PairList& right, std::span<const Pair> doubled,
                      const Input& input, std::span<const uint> file_faces);
 
-/// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once, points of a swept input in both
-/// frames: the least that a narrow phase must read (docs/counters.md, Bytes moved).
-std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input);
-
 /// Adds `bytes` to the bytes moved of `stage`, if it has launches.
 void add_moved_bytes(std::vector<StageTime>& stages, std::string_view stage, std::int64_t bytes);
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "collide/narrow/narrow.h"
+
 namespace bvhbench {
 namespace {
 
