@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DMOST_STEPS=64u -DREAL_BITS=32
+// check: -DMOST_STEPS=64u -DREAL_BITS=32 -DSEPARATED=0
+// check: -DMOST_STEPS=64u -DREAL_BITS=32 -DSEPARATED=1
 //
 // The narrow phase between two frames: which pairs of a vertex and a face, or of two edges, touch while all vertices move in
 // straight lines (advance.clh), all but those that share a vertex. Conservative: a pair that touches is always found.
@@ -39,18 +40,20 @@ static inline Hull scaled(Hull hull, const float factor)
     return hull;
 }
 
-/// Returns when two features may touch, as Impact says. `tolerance` is a length.
+/// Returns when two features may touch, as Impact says. `tolerance` and `separation` are lengths.
 static inline float impact_time(global const Point* points, global const Point* end_points,
-                                const Face first, const Face second, const float tolerance)
+                                const Face first, const Face second, const float tolerance,
+                                const float separation)
 {
     const Hull start = hull_of(points, first, second), end = hull_of(end_points, first, second);
-    const float size = fmax(longest_of(start), longest_of(end));
+    const float difference = fmax(longest_of(start), longest_of(end));
+    const float size = SEPARATED ? fmax(difference, separation) : difference;
     if (!(size >= 0x1p-100f && size <= 0x1p100f))  // outside it, the bounds on errors do not hold
         return 0.0f;
     const float factor =
         as_float((253u - (as_uint(size) >> 23)) << 23);  // 2^k: all coordinates are below 1
     return advance(scaled(start, factor), scaled(end, factor), tolerance * factor,
-                   0x1p-126f * factor)
+                   0x1p-126f * factor, separation * factor)
         .time;
 }
 

@@ -46,15 +46,21 @@ constexpr std::size_t groups_a_unit = 32;  ///< most, on many cores
 
 std::span<const QueryMethod> query_methods() { return catalog; }
 
-ImpactQueries::ImpactQueries(Programs& programs, const QueryMethod& method)
-    : programs_(programs), tolerance_(method.tolerance)
+ImpactQueries::ImpactQueries(Programs& programs, const QueryMethod& method, double separation)
+    : programs_(programs), tolerance_(method.tolerance), separation_(separation)
 {
+    check_separation(separation);
+    if (separation > 0 && !method.can_separate())
+        throw BadUsage(
+            "the method " + std::string(method.name) +
+            " finds when four vertices are in one plane, which a separation keeps apart");
     if (!has_doubles(programs.device()))
         throw Unavailable("queries of moving points are in doubles, which the device has not");
     kernel_ = programs.kernel("collide/moving/queries.cl", "time_impacts",
                               {{"MOST_STEPS", most_steps(method)},
                                {"REAL_BITS", method.real_bits},
-                               {"ANSWER", method.answer}});
+                               {"ANSWER", method.answer},
+                               {"SEPARATED", separation > 0 ? 1u : 0u}});
 }
 
 void ImpactQueries::load(std::span<const MovingQuery> queries, std::size_t copies,
@@ -96,7 +102,7 @@ void ImpactQueries::query(Queue& queue)
     queue.begin("narrow");
     queue.clear(cut_short_.cl(), cut_short_.bytes());
     set_arguments(kernel_, from_, to_, of_edges_ ? 1u : 0u, static_cast<uint>(in_all_), tolerance_,
-                  times_, cut_short_);
+                  separation_, times_, cut_short_);
     const std::size_t groups =
         std::min<std::size_t>(divided_up(static_cast<uint>(in_all_), group_size),
                               groups_a_unit * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>());

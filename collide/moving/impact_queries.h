@@ -26,6 +26,9 @@ struct QueryMethod {
 
     /// True if no touch is missed, and none is said to be later than it is, whatever is rounded.
     constexpr bool misses_none() const { return answer == 1; }
+
+    /// True if features may be kept a separation apart. Roots are of a volume, which is 0 where they touch.
+    constexpr bool can_separate() const { return answer != 3; }
 };
 
 /// All methods, in the order of tables.
@@ -37,8 +40,9 @@ constexpr double no_impact = 2;
 /// Answers queries that are all of a vertex and a face or all of two edges.
 class ImpactQueries {
 public:
-    /// Throws Unavailable if the device has no doubles, which all coordinates are.
-    ImpactQueries(Programs& programs, const QueryMethod& method);
+    /// Throws Unavailable if the device has no doubles, which all coordinates are, and BadUsage for a separation that is no length, or
+    /// that the method cannot keep.
+    ImpactQueries(Programs& programs, const QueryMethod& method, double separation = 0);
 
     /// Copies `copies` times all queries to the device, one after the other. Not timed. Waits. Throws Unavailable for more than 2^31
     /// queries in all or too little memory.
@@ -56,7 +60,7 @@ public:
 private:
     Programs& programs_;
     cl::Kernel kernel_;
-    double tolerance_;
+    double tolerance_, separation_;
     std::size_t count_ = 0, in_all_ = 0;
     bool of_edges_ = false;
     std::optional<Arena> arena_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// check: -DMOST_STEPS=64u -DREAL_BITS=32 -DANSWER=1
-// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DANSWER=1
-// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DANSWER=2
-// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DANSWER=3
+// check: -DMOST_STEPS=64u -DREAL_BITS=32 -DANSWER=1 -DSEPARATED=0
+// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DANSWER=1 -DSEPARATED=1
+// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DANSWER=2 -DSEPARATED=1
+// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DANSWER=3 -DSEPARATED=0
 //
 // Queries of moving points in doubles, without a tree: when does each touch first?
 //
-//     ANSWER    1: advance.clh, which misses nothing; 2: additive.clh, 3: roots.clh, as computed
+//     ANSWER    1: advance.clh, which misses nothing; 2: additive.clh, 3: roots.clh, as computed and without a separation
 #include "collide/moving/advance.clh"
 #if HAS_DOUBLES
 #include "collide/moving/additive.clh"
@@ -47,10 +47,11 @@ static inline Hull scaled(const double3* hull, const double factor)
 }
 
 /// Writes for each query a time from 0 to 1, or NEVER. `from` and `to` have 12 arrays of `count`. `tolerance` is a share of the largest
-/// difference between vertices of the two features along an axis. Counts in `cut_short` the queries that a limit of steps ended.
+/// difference between vertices of the two features along an axis, and `separation` a length. Counts in `cut_short` the queries that a
+/// limit of steps ended.
 kernel void time_impacts(global const double* from, global const double* to, const uint of_edges,
-                         const uint count, const double tolerance, global double* times,
-                         volatile global uint* cut_short)
+                         const uint count, const double tolerance, const double separation,
+                         global double* times, volatile global uint* cut_short)
 {
     for (uint place = get_global_id(0); place < count; place += get_global_size(0)) {
         double3 at[4], end_at[4], start[4], end[4];
@@ -61,17 +62,20 @@ kernel void time_impacts(global const double* from, global const double* to, con
         differences_of(at, of_edges, start);
         differences_of(end_at, of_edges, end);
         const double size = fmax(longest_in(start), longest_in(end));
+        const double most = SEPARATED ? fmax(size, separation) : size;
         Impact impact = {0, false};
-        if (size >= 0x1p-900 && size <= 0x1p900) {  // outside it, the bounds on errors do not hold
+        if (most >= 0x1p-900 && most <= 0x1p900) {  // outside it, the bounds on errors do not hold
             // 2^k: all coordinates are below 1
-            const double factor = as_double((2045ul - (as_ulong(size) >> 52)) << 52);
+            const double factor = as_double((2045ul - (as_ulong(most) >> 52)) << 52);
+            const Real apart = SEPARATED ? (Real)(separation * factor) : 0;
             const Hull first = scaled(start, factor), last = scaled(end, factor);
 #if ANSWER == 2
-            impact = add_up(first, last, most_motion(at, end_at, of_edges) * factor);
+            impact = add_up(first, last, most_motion(at, end_at, of_edges) * factor, apart);
             (void)tolerance;
 #else
             const Real near = (Real)(tolerance * size * factor);
-            impact = ANSWER == 1 ? advance(first, last, near, 0) : first_root(first, last, near);
+            impact =
+                ANSWER == 1 ? advance(first, last, near, 0, apart) : first_root(first, last, near);
 #endif
         }
         times[place] = impact.time;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -75,6 +76,9 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
         block_pairs_ = pairs_in_block;
     check_narrow(options.method, options.keep_adjacent);
     check_narrow_of(options.method, is_swept() ? NarrowOf::step : NarrowOf::moment);
+    check_separation(options.separation);
+    if (options.separation > 0)
+        check_separation(options.method, is_swept());
     const NarrowMethod& method = find_narrow_method(options.method);
     options_.method = method.name;  // refers to static storage
     if (method.real_bits == 64 && !has_doubles_)
@@ -115,7 +119,9 @@ cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
 
 cl::Kernel NarrowPhase::compiled_impacts(const NarrowMethod& method)
 {
-    std::vector<Define> defines = {{"MOST_STEPS", most_steps}, {"REAL_BITS", method.real_bits}};
+    std::vector<Define> defines = {{"MOST_STEPS", most_steps},
+                                   {"REAL_BITS", method.real_bits},
+                                   {"SEPARATED", options_.separation > 0 ? 1u : 0u}};
     if (method.real_bits == 32) {
         if (options_.is_wide)
             throw BadUsage("the vertices are in doubles, and the narrow phase " +
@@ -202,15 +208,20 @@ void NarrowPhase::find_impacts(const Input& input, const Buffer<Pair>& candidate
 {
     queue.begin("narrow");
     queue.clear(counters_.cl(), counters_.bytes());
-    const auto set_for = [&](const auto& points, const auto& end_points) {
+    const auto set_for = [&](const auto& points, const auto& end_points, auto separation) {
         set_arguments(filter_, points, end_points, input.device_faces, candidates,
                       candidate_counters, static_cast<uint>(candidates.size()), contacts_, times_,
-                      static_cast<uint>(contacts_.size()), tolerance_, counters_);
+                      static_cast<uint>(contacts_.size()), tolerance_, separation, counters_);
     };
+    const double separation = options_.separation;
     if (options_.is_wide)
-        set_for(input.wide.device_points, input.wide.device_end_points);
-    else
-        set_for(input.device_points, input.device_end_points);
+        set_for(input.wide.device_points, input.wide.device_end_points, separation);
+    else if (find_narrow_method(options_.method).real_bits == 64)
+        set_for(input.device_points, input.device_end_points, separation);
+    else  // rounded as the kernel allows for, and no denormal, which a device may take for 0
+        set_for(input.device_points, input.device_end_points,
+                static_cast<float>(std::clamp<double>(separation, std::numeric_limits<float>::min(),
+                                                      std::numeric_limits<float>::max())));
     queue.launch(filter_, items_for(candidates.size(), swept_groups_per_unit),
                  by_groups() ? group_size_ : 1, 0);
 }

@@ -34,6 +34,9 @@ struct NarrowOptions {
     /// Of a swept input: the longest side of the box around both frames, which tolerances are shares of. Must be set for the
     /// methods for swept boxes, and for no others.
     std::optional<float> swept_size = std::nullopt;
+    /// Of a swept input: features touch that come as near as this, in the unit of the points. Boxes of candidates must have room for it
+    /// (within/padding.h).
+    double separation = 0;
     /// Of a swept input: whether its vertices are in doubles (Input::is_wide), which only methods in doubles read.
     bool is_wide = false;
 };
@@ -59,15 +62,15 @@ struct NarrowCounts {
 /// position with two indices are not shared. docs/contacts.md has the details.
 ///
 /// Methods for swept boxes decide which vertices touch which faces, or edges which edges, stored as in scenes/ground_truth.h,
-/// while all vertices move in straight lines from one frame to the next. No pair that touches is missed; one that does not may
-/// be found if it comes nearer than the tolerance or too near to tell. Pairs that share a vertex are left out. docs/swept.md
-/// has the details.
+/// while all vertices move in straight lines from one frame to the next, or come as near as a separation. No pair that touches is
+/// missed; one that does not may be found if it comes nearer than the tolerance or too near to tell. Pairs that share a vertex are
+/// left out. docs/swept.md has the details.
 ///
 /// The number of candidates stays on the device. No contact is dropped silently: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
-    /// Throws BadUsage as check_narrow and check_narrow_of do, and for a method in floats over doubles, and Unavailable if the method needs
-    /// doubles or denormals that the device lacks.
+    /// Throws BadUsage as check_narrow and check_narrow_of do, for a method in floats over doubles and for a separation that is no length
+    /// or not of a swept input, and Unavailable if the method needs doubles or denormals that the device lacks.
     NarrowPhase(Programs& programs, const NarrowOptions& options);
 
     /// Reserves memory for about as many contacts as triangles. Never timed. Throws Unavailable.
@@ -75,6 +78,7 @@ public:
 
     /// True of methods for swept boxes.
     bool is_swept() const { return options_.swept_size.has_value(); }
+    double separation() const { return options_.separation; }
 
     /// Memory reserved at present.
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }

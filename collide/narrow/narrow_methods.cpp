@@ -2,6 +2,7 @@
 #include "collide/narrow/narrow_methods.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "geometry/error.h"
@@ -74,6 +75,21 @@ void check_narrow(std::string_view name, bool keep_adjacent)
         throw BadUsage("--narrow " + std::string(name) +
                        " cannot tell what triangles that share a corner have beyond it: it needs "
                        "--adjacent drop");
+}
+
+void check_separation(double separation)
+{
+    if (!(separation >= 0 && std::isfinite(separation)))
+        throw BadUsage("a separation is a finite number that is not negative");
+}
+
+void check_separation(std::string_view narrow, bool is_swept)
+{
+    if (!is_swept)
+        throw BadUsage("'separation' is about the way between two frames: it needs 'swept'");
+    if (narrow == "none")
+        throw BadUsage("'separation' is about contacts: it needs a narrow phase" +
+                       there_are("", names_of(narrow_methods(NarrowOf::step))));
 }
 
 void check_narrow_of(std::string_view name, NarrowOf question)

@@ -47,6 +47,12 @@ const NarrowMethod& find_narrow_method(std::string_view name);
 /// Throws BadUsage unless `name` is "none" or a method's; also if the method cannot keep pairs that share corners as asked.
 void check_narrow(std::string_view name, bool keep_adjacent);
 
+/// Throws BadUsage for a minimum separation that is negative or not finite.
+void check_separation(double separation);
+
+/// Throws BadUsage if there is no narrow phase or no swept box that a minimum separation can be beside.
+void check_separation(std::string_view narrow, bool is_swept);
+
 /// Throws BadUsage if the method `name`, which may be "none", does not decide `question`. The exact one is for distances too.
 void check_narrow_of(std::string_view name, NarrowOf question);
 

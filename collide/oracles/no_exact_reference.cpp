@@ -18,24 +18,25 @@ PairList pairs_within(std::span<const Point>, std::span<const Face>, std::span<c
 }
 
 std::vector<Impact> touching_on_the_way(std::span<const Point>, std::span<const Point>,
-                                        std::span<const Face>, std::span<const Pair>, Checked*)
+                                        std::span<const Face>, std::span<const Pair>, Checked*,
+                                        double)
 {
     throw Unavailable("this build has no CGAL to tell what touches between two frames");
 }
 
 std::vector<Impact> touching_on_the_way(std::span<const WidePoint>, std::span<const WidePoint>,
                                         std::span<const Face> faces,
-                                        std::span<const Pair> candidates, Checked* checked)
+                                        std::span<const Pair> candidates, Checked* checked, double)
 {
     return touching_on_the_way(std::span<const Point>(), {}, faces, candidates, checked);
 }
 
-std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery>, Checked*)
+std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery>, Checked*, double)
 {
     throw Unavailable("this build has no CGAL to tell when features touch");
 }
 
-std::vector<std::optional<ImpactTime>> impact_times(const Input&, std::span<const Pair>)
+std::vector<std::optional<ImpactTime>> impact_times(const Input&, std::span<const Pair>, double)
 {
     return impact_times(std::span<const MovingQuery>());
 }

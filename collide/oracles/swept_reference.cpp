@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "collide/oracles/first_touch.h"
+#include "collide/oracles/first_within.h"
 #include "collide/oracles/moving_features.h"
 #include "geometry/cores.h"
 #include "geometry/host_memory.h"
@@ -111,20 +112,39 @@ Motion<Whole> in_whole_numbers(const MovingQuery& query)
     });
 }
 
-/// Returns the motion scaled by a power of two such that no product overflows. Rounding must be protected.
-Motion<Interval> in_intervals(const MovingQuery& query)
+/// Returns the motion times `scale`. Rounding must be protected.
+Motion<Interval> in_intervals(const MovingQuery& query, Interval scale)
 {
-    const Interval scale = std::ldexp(1.0, -exponents(query).second);
     return motion_of<Interval>(query, [&](double x) { return Interval(x) * scale; });
 }
 
-/// Returns when the features of a query touch first, to `finest`, nothing if they do not.
-std::optional<ImpactTime> impact_time(const MovingQuery& query, double finest, Checked& checked)
+/// Returns when the features of a query come within a distance first, to `finest`, nothing if they do not.
+std::optional<ImpactTime> time_within(const MovingQuery& query, double distance, double finest)
 {
+    const auto search = [&] {
+        const CGAL::Protect_FPU_rounding<true> upwards;
+        double largest = distance;
+        for (const auto& four : {query.from, query.to})
+            for (const WidePoint& p : four)
+                for (const auto axis : axes)
+                    largest = std::max(largest, std::abs(p.*axis));
+        const Interval scale = std::ldexp(1.0, std::min(1000, -Parts(largest).exponent));
+        return FirstWithin(query, distance, in_intervals(query, scale), Interval(distance) * scale);
+    };
+    return search().find(finest);
+}
+
+/// Returns when the features of a query touch first, to `finest`, nothing if they do not.
+std::optional<ImpactTime> impact_time(const MovingQuery& query, double finest, Checked& checked,
+                                      double separation)
+{
+    if (separation > 0)
+        return time_within(query, separation, finest);
     std::optional<Areas<Interval>> near;
     {
         const CGAL::Protect_FPU_rounding<true> upwards;
-        const Motion<Interval> all = in_intervals(query);
+        const Interval scale = std::ldexp(1.0, -exponents(query).second);  // no product overflows
+        const Motion<Interval> all = in_intervals(query, scale);
         Polynomial<Interval, 3> volume = all.volume();
         if (CGAL::certainly(SignDuring{{0, 1}}(volume) != CGAL::ZERO))
             return std::nullopt;
@@ -195,7 +215,7 @@ MovingQuery query_of(std::span<const P> points, std::span<const P> end_points,
 template <class P>
 std::vector<Impact> touching_pairs(std::span<const P> points, std::span<const P> end_points,
                                    std::span<const Face> faces, std::span<const Pair> candidates,
-                                   Checked* checked)
+                                   Checked* checked, double separation)
 {
     require_host_memory("checking the contacts between frames", candidates.size_bytes());
     std::vector<std::vector<Impact>> parts(candidates.size() / at_once + 1);
@@ -203,7 +223,7 @@ std::vector<Impact> touching_pairs(std::span<const P> points, std::span<const P>
         if (share_a_vertex(faces[candidates[k].a], faces[candidates[k].b]))
             return;
         const MovingQuery query = query_of(points, end_points, faces, candidates[k]);
-        if (const auto time = impact_time(query, 1, ours))
+        if (const auto time = impact_time(query, 1, ours, separation))
             parts[k / at_once].push_back({candidates[k], time->no_later});
     });
     std::vector<Impact> found;
@@ -215,23 +235,24 @@ std::vector<Impact> touching_pairs(std::span<const P> points, std::span<const P>
 }  // namespace
 
 std::vector<std::optional<ImpactTime>> impact_times(std::span<const MovingQuery> queries,
-                                                    Checked* checked)
+                                                    Checked* checked, double separation)
 {
     std::vector<std::optional<ImpactTime>> times(queries.size());
     for_each(queries.size(), checked, [&](std::size_t k, Checked& ours) {
-        times[k] = impact_time(queries[k], precise, ours);
+        times[k] = impact_time(queries[k], precise, ours, separation);
     });
     return times;
 }
 
-std::vector<std::optional<ImpactTime>> impact_times(const Input& input, std::span<const Pair> pairs)
+std::vector<std::optional<ImpactTime>> impact_times(const Input& input, std::span<const Pair> pairs,
+                                                    double separation)
 {
     std::vector<MovingQuery> queries;
     for (const Pair pair : pairs)
         queries.push_back(
             input.is_wide() ? query_of(input.wide.points, input.wide.end_points, input.faces, pair)
                             : query_of(input.points, input.end_points, input.faces, pair));
-    return impact_times(queries);
+    return impact_times(queries, nullptr, separation);
 }
 
 std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const MovingQuery> queries)
@@ -246,17 +267,19 @@ std::vector<std::optional<ImpactTime>> impact_times_by_roots(std::span<const Mov
 std::vector<Impact> touching_on_the_way(std::span<const Point> points,
                                         std::span<const Point> end_points,
                                         std::span<const Face> faces,
-                                        std::span<const Pair> candidates, Checked* checked)
+                                        std::span<const Pair> candidates, Checked* checked,
+                                        double separation)
 {
-    return touching_pairs(points, end_points, faces, candidates, checked);
+    return touching_pairs(points, end_points, faces, candidates, checked, separation);
 }
 
 std::vector<Impact> touching_on_the_way(std::span<const WidePoint> points,
                                         std::span<const WidePoint> end_points,
                                         std::span<const Face> faces,
-                                        std::span<const Pair> candidates, Checked* checked)
+                                        std::span<const Pair> candidates, Checked* checked,
+                                        double separation)
 {
-    return touching_pairs(points, end_points, faces, candidates, checked);
+    return touching_pairs(points, end_points, faces, candidates, checked, separation);
 }
 
 }  // namespace bvhbench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DWIDE_POINTS=0
-// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DWIDE_POINTS=1
+// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DWIDE_POINTS=0 -DSEPARATED=0
+// check: -DMOST_STEPS=64u -DREAL_BITS=64 -DWIDE_POINTS=1 -DSEPARATED=1
 //
 // The narrow phase between two frames, as collide/impacts/impacts.cl, in doubles: pairs are tested as single queries are
 // (collide/moving/queries.cl). Conservative: a pair that touches is always found.
@@ -51,21 +51,23 @@ static inline float rounded_down(const double time)
     return as_float(as_uint(nearest) - ((double)nearest > time ? 1u : 0u));
 }
 
-/// Returns when two features may touch, as Impact says. `tolerance` is a length.
+/// Returns when two features may touch, as Impact says. `tolerance` and `separation` are lengths.
 static inline float impact_time(global const Coordinate* points,
                                 global const Coordinate* end_points, const Face first,
-                                const Face second, const double tolerance)
+                                const Face second, const double tolerance, const double separation)
 {
     double3 start[4], end[4];
     hull_of(points, first, second, start);
     hull_of(end_points, first, second, end);
-    const double size = fmax(longest_in(start), longest_in(end));
+    const double difference = fmax(longest_in(start), longest_in(end));
+    const double size = SEPARATED ? fmax(difference, separation) : difference;
     if (!(size >= 0x1p-900 && size <= 0x1p900))  // outside it, the bounds on errors do not hold
         return 0.0f;
     const double factor =
         as_double((2045ul - (as_ulong(size) >> 52)) << 52);  // 2^k: all coordinates are below 1
-    return rounded_down(
-        advance(scaled(start, factor), scaled(end, factor), tolerance * factor, 0).time);
+    return rounded_down(advance(scaled(start, factor), scaled(end, factor), tolerance * factor, 0,
+                                separation * factor)
+                            .time);
 }
 
 typedef Coordinate Vertices;

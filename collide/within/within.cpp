@@ -54,16 +54,6 @@ std::pair<double, double> square_of(double distance)
 
 }  // namespace
 
-float reach_of(double distance)
-{
-    constexpr float most = std::numeric_limits<float>::max();  // spans any two floats
-    const double half = distance / 2;
-    if (distance == 0 || half >= most)
-        return distance == 0 ? 0 : most;
-    const auto near = static_cast<float>(half);
-    return std::max(std::nextafter(near, most), std::numeric_limits<float>::min());  // no denormal
-}
-
 bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair pair,
                 const WithinOptions& options)
 {
@@ -79,11 +69,13 @@ bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair
 }
 
 WithinPhase::WithinPhase(Programs& programs, const WithinOptions& options)
-    : programs_(programs), options_(options), form_(chosen_form(programs.device(), options.form))
+    : programs_(programs)
+    , options_(options)
+    , form_(chosen_form(programs.device(), options.form))
+    , padding_(programs, options.form, false)
 {
     set_distance(options.distance);
     check_narrow_of(options.method, NarrowOf::distance);
-    pad_ = programs.kernel("collide/within/pad.cl", "pad_points");
     const bool can_double = has_doubles(programs.device()) && !options.without_doubles;
     const NarrowMethod& method =
         find_narrow_method(options.method == "none" ? "exact" : options.method);
@@ -122,17 +114,14 @@ void WithinPhase::set_distance(double distance)
     if (!(distance >= 0 && std::isfinite(distance)))
         throw BadUsage("a distance is a finite number that is not negative");
     options_.distance = distance;
-    reach_ = reach_of(distance);
     std::tie(low_, high_) = square_of(distance);
 }
 
 void WithinPhase::reserve(std::size_t points, std::size_t triangles)
 {
-    take_memory(arena_, programs_.device(), [&](Arena& arena) {
-        low_ends_ = arena.take<Point>(points, Use::scratch);
-        high_ends_ = arena.take<Point>(points, Use::scratch);
-        counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch);
-    });
+    take_memory(arena_, programs_.device(),
+                [&](Arena& arena) { counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch); });
+    padding_.reserve(points);
     const std::size_t guess = std::max<std::size_t>(1024, triangles);
     room_ = options_.capacity != 0 ? options_.capacity : guess;
     for (Pass& pass : passes_)
@@ -152,26 +141,10 @@ void WithinPhase::take_lists()
 
 Footprint WithinPhase::reserved() const
 {
-    Footprint all = arena_ ? arena_->used() : Footprint{};
-    if (lists_)
-        all.scratch_bytes += lists_->used().total();
+    Footprint all = padding_.reserved();
+    for (const auto* arena : {&arena_, &lists_})
+        all.scratch_bytes += *arena ? (*arena)->used().total() : 0;
     return all;
-}
-
-Input WithinPhase::padded(const Input& input, Queue& queue)
-{
-    assert(arena_ && "reserve first");
-    const std::size_t count = low_ends_.size();
-    queue.begin("pad");
-    set_arguments(pad_, input.device_points, reach_, low_ends_, high_ends_,
-                  static_cast<uint>(count));
-    queue.launch(pad_,
-                 in_groups() ? divided_up(static_cast<uint>(count), within_group_size) *
-                                   std::size_t{within_group_size}
-                             : chunk_count(programs_.device()),
-                 in_groups() ? within_group_size : 1,
-                 static_cast<std::int64_t>(3 * low_ends_.bytes()));
-    return input.between(low_ends_, high_ends_);
 }
 
 void WithinPhase::query(const Input& input, const DevicePairs& candidates, Queue& queue)

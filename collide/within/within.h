@@ -17,6 +17,7 @@
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "collide/collider.h"
+#include "collide/within/padding.h"
 
 namespace bvhbench {
 
@@ -58,9 +59,11 @@ public:
     /// Memory reserved at present.
     Footprint reserved() const;
 
-    /// Gives each vertex its room, in the stage `pad`. Returns the input for builders and colliders on the device: swept, over the ends of
-    /// the rooms; its host points are not those. Boxes of triangles within the distance overlap. Does not block.
-    Input padded(const Input& input, Queue& queue);
+    /// Gives each vertex its room, as Padding::padded: boxes of triangles within the distance overlap. Does not block.
+    Input padded(const Input& input, Queue& queue)
+    {
+        return padding_.padded(input, reach_of(options_.distance), queue);
+    }
 
     /// Enqueues the stages `narrow` and `exact` over pairs of padded boxes, in any order. Candidates beyond their list are not tested, so
     /// complete the broad phase first. Reads the device's points and faces if the host has none. Blocks.
@@ -98,21 +101,16 @@ private:
     Programs& programs_;
     WithinOptions options_;
     KernelForm form_;
+    Padding padding_;
     bool is_exact_ = true, computes_distances_ = false;
-    float reach_ = 0;            ///< of padding, to each side
     double low_ = 0, high_ = 0;  ///< around the square of the distance
-    cl::Kernel pad_;
     std::vector<Pass> passes_;
     std::size_t room_ = 0;
     std::optional<Arena> arena_, lists_;
-    Buffer<Point> low_ends_, high_ends_;
     Buffer<Pair> pairs_;
     Buffer<double> distances_;
     Buffer<uint> counters_;
 };
-
-/// Returns a float that is at least half of the distance: the room to each side.
-float reach_of(double distance);
 
 /// True if two triangles are within the distance, by the host's arithmetic alone.
 bool are_within(std::span<const Point> points, std::span<const Face> faces, Pair pair,

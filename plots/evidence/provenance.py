@@ -33,6 +33,7 @@ STAGES = {"bounds": ("builders/stages/bounds",), "codes": ("builders/stages/code
 OF_RANKS = {"boxes": ("cluster/top_boxes",), "exchange": ("cluster/",)}  # one rank has nothing to exchange
 OF_FIRST = {"first contact": ("collide/first/", "collide/narrow/")}  # beside `broad`
 OF_WITHIN = {"within": ("collide/within/", "collide/narrow/")}
+OF_SEPARATION = {"separation": ("collide/separation/", "collide/within/pad")}
 OF_SWEPT = {"narrow between frames": ("collide/impacts/", "collide/moving/advance"), "narrow of queries": ("collide/moving/",),
             "narrow in doubles": ("collide/wide_impacts/", "collide/impacts/find", "collide/moving/")}  # in place of `narrow`
 OF_FILTERS = {"narrow of filters": ("collide/narrow/", UNDECIDED)}  # the same
@@ -64,7 +65,7 @@ class Work(NamedTuple):
         if collider == "grid":
             return of_collider
         own = next((paths for name, paths in BUILDERS.items() if self.builder.startswith(name)), ())
-        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_FIRST | OF_WITHIN | OF_SWEPT | OF_FILTERS).get(stage, own if stage in OF_BUILDER else ())}
+        stages = {path for stage in self.stages for path in (STAGES | OF_RANKS | OF_FIRST | OF_WITHIN | OF_SEPARATION | OF_SWEPT | OF_FILTERS).get(stage, own if stage in OF_BUILDER else ())}
         return of_collider | (stages - set(own) if self.builder == "oibvh-host" else stages)
 
 
@@ -113,7 +114,8 @@ def works(document: dict[str, Any]) -> set[Work]:
     found = {Work(cell.builder, cell.collider or "", (*(narrow_of(cell) if stage == "narrow" else stage
                                                         for stage in cell.samples[0]), *(("objects",) if is_of_many(cell) else ()),
                                                         *(OF_FIRST if "first_contact" in cell.raw else ()),
-                                                        *(OF_WITHIN if "within_distance" in cell.raw else ())))
+                                                        *(OF_WITHIN if "within_distance" in cell.raw else ()),
+                                                        *(OF_SEPARATION if "separation" in cell.raw else ())))
              for cell in cells if cell.samples}
     found |= {Work(cell.builder, cell.collider or "", (*OF_FRAME, *(("exchange",) if cell.cluster["ranks_count"] > 1 else ())))
               for cell in cells if cell.cluster and cell.status == "measured"}
