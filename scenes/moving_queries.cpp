@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "geometry/error.h"
+#include "geometry/triangle.h"
 #include "scenes/formats/text.h"
 #include "scenes/mesh_file.h"
 
@@ -193,6 +194,18 @@ std::vector<std::filesystem::path> files_under(const std::filesystem::path& path
 }
 
 }  // namespace
+
+Aabb QuerySet::box() const
+{
+    Aabb around = empty_box();
+    for (const MovingQuery& query : queries)
+        for (const WidePoint& p : query.from) {
+            const Point at = {static_cast<float>(p.x), static_cast<float>(p.y),
+                              static_cast<float>(p.z)};
+            around = merged(around, triangle_box(at, at, at));
+        }
+    return around;
+}
 
 std::vector<QuerySet> read_queries(const std::filesystem::path& path)
 {

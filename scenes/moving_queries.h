@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/aabb.h"
 #include "geometry/moving_query.h"
 
 namespace bvhbench {
@@ -21,6 +22,9 @@ struct QuerySet {
     /// Whether each touches, as its source says: by a seventh number, or by a list of true and false in a file of the same name, less
     /// `_queries`, in the folder `truth` beside it. Empty if the source says nothing of a file.
     std::vector<char> published;
+
+    /// Returns the box around all points at the start, as they are rounded to floats.
+    Aabb box() const;
 };
 
 /// Returns the sets of a file, or of all .csv files under a folder, by name: those of one folder and kind are one set, and queries whose

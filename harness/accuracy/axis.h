@@ -35,7 +35,8 @@ struct AxisTask {
     std::size_t pairs_at_once = 1u << 20;
     uint seed = 1;  ///< seed of the first piece of pairs; later pieces use the numbers after it
     int samples = 5;
-    CellFilter filter;  ///< on "input/method"
+    CellFilter filter;                ///< on "input/method"
+    std::string separation = "none";  ///< of the axes impacts and queries, as of `collide`
 
     bool wants(const std::string& input, std::string_view method) const
     {

@@ -11,6 +11,7 @@
 #include "harness/accuracy/error_sizes.h"
 #include "harness/base/failure.h"
 #include "harness/choice/catalog.h"
+#include "harness/choice/distance_words.h"
 #include "plugins/state.h"
 #include "scenes/manifest.h"
 #include "scenes/moving_queries.h"
@@ -27,15 +28,18 @@ using Times = std::vector<std::optional<ImpactTime>>;
 /// method that misses nothing must be right.
 void judge_times(const std::vector<double>& found, const Times& right, bool misses_none, Cell& cell)
 {
-    double missed = 0, wrong = 0, late = 0, shortened = 0;
+    double missed = 0, wrong = 0, late = 0, shortened = 0, uncertain = 0;
     std::vector<double> gaps;  // of queries that touch and were found to
     for (std::size_t k = 0; k < found.size(); ++k) {
         const bool touches = right[k].has_value(), is_found = found[k] <= 1;
+        if (touches && right[k]->no_later > 1) {
+            ++uncertain;
+            continue;
+        }
         missed += touches && !is_found ? 1 : 0;
         wrong += !touches && is_found ? 1 : 0;
         late += touches && is_found && found[k] > right[k]->no_later ? 1 : 0;
-        const double until = touches ? right[k]->no_later : 1;
-        shortened += std::max(0.0, until - std::min(found[k], 1.0));
+        shortened += std::max(0.0, (touches ? right[k]->no_later : 1) - std::min(found[k], 1.0));
         if (touches && is_found)
             gaps.push_back(std::max(0.0, right[k]->no_later - found[k]));
     }
@@ -43,6 +47,8 @@ void judge_times(const std::vector<double>& found, const Times& right, bool miss
     cell.counters["missed_count"] = missed;
     cell.counters["false_count"] = wrong;
     cell.counters["late_count"] = late;
+    if (cell.separation)
+        cell.counters["uncertain_count"] = uncertain;
     cell.counters["gap_median"] = value_at(gaps, 0.5);
     cell.counters["gap_99_percent"] = value_at(gaps, 0.99);
     cell.counters["shortened_mean"] = shortened / static_cast<double>(found.size());
@@ -57,7 +63,8 @@ void prepare(Session& session, const QueryMethod& method, const QuerySet& set, c
              Measurement& one)
 {
     const std::size_t copies = (least_queries + set.queries.size() - 1) / set.queries.size();
-    const auto queries = std::make_shared<ImpactQueries>(session.programs(), method);
+    const auto queries = std::make_shared<ImpactQueries>(session.programs(), method,
+                                                         one.cell.separation.value_or(0));
     queries->load(set.queries, copies, session.queue());
     one.once = [&session, queries] {
         session.give_head_start();
@@ -75,6 +82,8 @@ void prepare(Session& session, const QueryMethod& method, const QuerySet& set, c
 void prepare(Session& session, const outside::Offer& offer, const QuerySet& set, const Times& right,
              Measurement& one)
 {
+    if (one.cell.separation)
+        throw BadUsage("a plug-in is not told of a separation");
     const auto state = std::make_shared<outside::State>(offer.library, offer.method, offer.limits);
     state->send_queries(set.queries);
     one.once = [&session, state] {
@@ -91,10 +100,12 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
                  const std::string& source)
 {
     Times right;
+    std::optional<double> separation;
     std::vector<AxisMethod> methods;
     const auto add = [&](std::string_view called, const auto& method) {
         if (run.task.wants(name, called))
             methods.push_back({.name = std::string(called), .prepare = [&](Measurement& one) {
+                                   one.cell.separation = separation;
                                    prepare(run.session, method, set, right, one);
                                }});
     };
@@ -105,7 +116,10 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
             add(offer->method.name, *offer);
     if (methods.empty())
         return;
-    right = impact_times(set.queries);
+    separation = distance_of(run.task.separation, set.box());
+    if (separation == 0.0)
+        separation.reset();
+    right = impact_times(set.queries, nullptr, separation.value_or(0));
     // As the features of swept boxes: a vertex, an edge and a face are a triangle each.
     SceneFacts facts{.name = name,
                      .triangles = static_cast<std::int64_t>(2 * set.queries.size()),
@@ -118,7 +132,7 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
             hash.values(std::span<const WidePoint>(points));
     facts.content_hash = hash.get();
     for (std::size_t k = 0; k < set.published.size(); ++k)
-        if (right[k].has_value() != (set.published[k] != 0))
+        if (!separation && right[k].has_value() != (set.published[k] != 0))
             run.session.scenes().tell(name + ": query " + std::to_string(k) + " is published to " +
                                       (right[k] ? "pass, and touches" : "touch, and passes"));
     measure_methods(run, "queries", facts, methods);

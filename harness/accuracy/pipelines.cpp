@@ -27,9 +27,6 @@ constexpr StandIn distance_scenes[] = {{"unc_cloth_ball", "cloth-ball:20000:20"}
                                        {"bunny", "sphere:20000"},
                                        {"ipc_armadillo_rollers", "cloth-funnel:10000:20"}};
 
-/// Of the diagonal: what contacts of cloth are kept apart by, and what a planner of paths asks for.
-constexpr const char* distances[] = {"0.1%", "1%"};
-
 /// A scene's name, and the name of the scene it replaces; empty if none.
 using NamedScene = std::pair<std::string, std::string>;
 
@@ -120,26 +117,28 @@ void measure_pipelines(const AxisRun& run, const std::string& axis, bool swept,
     }
 }
 
-/// Measures each narrow phase that decides `question`, and the exact one, behind the fastest pipeline. `within` are distances, or "none".
-void measure_narrow_phases(const AxisRun& run, const std::string& axis, NarrowOf question,
-                           std::span<const char* const> within)
+/// Measures each narrow phase that decides `question`, and the exact one, behind the fastest pipeline. Distances are shares of the
+/// diagonal: what contacts of cloth are kept apart by, and what a planner of paths asks for.
+void measure_narrow_phases(const AxisRun& run, const std::string& axis, NarrowOf question)
 {
+    const bool is_step = question == NarrowOf::step;
     std::vector<std::string> names;
-    if (question == NarrowOf::distance)
+    if (!is_step)
         names.emplace_back("exact");
     for (const NarrowMethod& method : narrow_methods(question))
         names.emplace_back(method.name);
     std::vector<PipelineChoice> all;
-    for (const char* distance : within)
+    for (const std::string& distance :
+         is_step ? std::vector{run.task.separation} : std::vector<std::string>{"0.1%", "1%"})
         for (const std::string& narrow : names) {
             const AxisMethod fastest = fastest_method(run.session, "", "f32", narrow);
             PipelineChoice& one =
                 all.emplace_back(PipelineChoice{fastest.builder, fastest.collider});
-            one.collider.within = distance;
+            (is_step ? one.collider.separation : one.collider.within) = distance;
             one.collider.trees = TreeOver::automatic;
         }
     measure_pipelines(
-        run, axis, question == NarrowOf::step, all,
+        run, axis, is_step, all,
         [](const BuilderChoice&, const ColliderChoice& collider) { return collider.narrow; });
 }
 
@@ -150,15 +149,11 @@ void measure_swept(const AxisRun& run)
     measure_pipelines(run, "swept", true, pipelines(), method_of);
 }
 
-void measure_impacts(const AxisRun& run)
-{
-    constexpr const char* none[] = {"none"};
-    measure_narrow_phases(run, "impacts", NarrowOf::step, none);
-}
+void measure_impacts(const AxisRun& run) { measure_narrow_phases(run, "impacts", NarrowOf::step); }
 
 void measure_distance(const AxisRun& run)
 {
-    measure_narrow_phases(run, "distance", NarrowOf::distance, distances);
+    measure_narrow_phases(run, "distance", NarrowOf::distance);
 }
 
 }  // namespace bvhbench

@@ -342,7 +342,7 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
                        " finds all pairs; leaf ends at the first contact, as 'first' asks");
     if (entry.outside != nullptr)
         return outside::make_collider(*entry.outside, entry.refits, programs.device(), choice,
-                                      choice.distance);
+                                      choice.is_within() ? choice.distance : std::nullopt);
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
     return entry.make(programs, choice);

@@ -115,7 +115,9 @@ struct ColliderChoice : ColliderOptions {
     TreeOver trees = TreeOver::object;
     /// How far apart pairs may be, as it was asked for (distance_words.h).
     std::string within = "none";
-    /// The same in the scene's unit; nothing if pairs of boxes or contacts are asked for.
+    /// How near features that touch in a step may be, as it was asked for; "none" as 0.
+    std::string separation = "none";
+    /// The one of both that was asked for, in the scene's unit; nothing if neither was, or a separation of 0.
     std::optional<double> distance = std::nullopt;
 
     bool operator==(const ColliderChoice&) const = default;

@@ -68,6 +68,27 @@ Json word_of(const CellChoice& choice)
     return Json(words[static_cast<std::size_t>(choice.*part.*member)]);
 }
 
+template <auto member>
+bool set_distance(CellChoice& choice, const std::string& word)
+{
+    choice.collider.*member = word;
+    return word == "none" || is_distance(word);
+}
+
+template <auto member>
+bool set_rules(CellChoice& choice, const std::string& word)
+{
+    unsigned& rules = choice.collider.*member;
+    rules = word == "none" ? 0 : rules | skip_rules_called(word);
+    return true;
+}
+
+template <auto member>
+Json rules_of(const CellChoice& choice)
+{
+    return Json(skip_rules_text(choice.collider.*member));
+}
+
 // "boxes" is applied before "leaves": a format other than f32 selects sorted leaves, which an explicit "leaves" overrides.
 constexpr Choice table[] = {
     {"order", Of::builder, "a name of `list orders`", "a name of `list orders`",
@@ -125,27 +146,18 @@ constexpr Choice table[] = {
     {"within", Of::query, "none, a distance, or a share as 1% of the diagonal of the scene's box",
      "pairs of triangles at most this far apart, exactly: a distance in the scene's unit, or a "
      "share as 1% of the diagonal of the box around its first frame",
-     [](CellChoice& choice, const std::string& word) {
-         choice.collider.within = word;
-         return word == "none" || is_distance(word);
-     },
-     value_of<collider, &ColliderChoice::within>},
+     set_distance<&ColliderChoice::within>, value_of<collider, &ColliderChoice::within>},
+    {"separation", Of::query,
+     "none, a distance, or a share as 1% of the diagonal of the scene's box",
+     "between frames: what comes as near as this minimum separation touches: a distance in the "
+     "scene's unit, or a share as 1% of the diagonal of the box around its first frame",
+     set_distance<&ColliderChoice::separation>, value_of<collider, &ColliderChoice::separation>},
     {"no_skip", Of::query, "none, all, or a name of `list skips`",
      "a rule of `list skips` that is not used, or all: work is done that need not be",
-     [](CellChoice& choice, const std::string& word) {
-         choice.collider.rules_off =
-             word == "none" ? 0 : choice.collider.rules_off | skip_rules_called(word);
-         return true;
-     },
-     [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},
+     set_rules<&ColliderChoice::rules_off>, rules_of<&ColliderChoice::rules_off>},
     {"force_skip", Of::query, "none, all, or a name of `list skips`",
      "a rule of `list skips` that is used even where this device does without it, or all",
-     [](CellChoice& choice, const std::string& word) {
-         choice.collider.rules_forced =
-             word == "none" ? 0 : choice.collider.rules_forced | skip_rules_called(word);
-         return true;
-     },
-     [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_forced)); }},
+     set_rules<&ColliderChoice::rules_forced>, rules_of<&ColliderChoice::rules_forced>},
     {"update", Of::query, "auto, rebuild or refit",
      "trees of later frames: auto, rules and the collider decide; rebuild, in every frame, and "
      "fronts start again; or refit, never rebuild",

@@ -18,13 +18,6 @@ std::optional<double> parsed_distance(const std::string& word)
     return is_allowed ? std::optional(number) : std::nullopt;
 }
 
-double diagonal_of(const Aabb& box)
-{
-    const auto side = [](float low, float high) { return double{high} - double{low}; };
-    return std::hypot(side(box.min_x, box.max_x), side(box.min_y, box.max_y),
-                      side(box.min_z, box.max_z));
-}
-
 }  // namespace
 
 bool is_distance(const std::string& word) { return parsed_distance(word).has_value(); }
@@ -32,7 +25,12 @@ bool is_distance(const std::string& word) { return parsed_distance(word).has_val
 std::optional<double> distance_of(const std::string& word, const Aabb& around)
 {
     const std::optional<double> number = parsed_distance(word);
-    return number && word.ends_with('%') ? *number / 100 * diagonal_of(around) : number;
+    if (!number || !word.ends_with('%'))
+        return number;
+    const auto side = [](float low, float high) { return double{high} - double{low}; };
+    return *number / 100 *
+           std::hypot(side(around.min_x, around.max_x), side(around.min_y, around.max_y),
+                      side(around.min_z, around.max_z));
 }
 
 }  // namespace bvhbench

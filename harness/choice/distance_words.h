@@ -8,8 +8,8 @@
 
 namespace bvhbench {
 
-/// True if `word` is a distance that the option `within` takes: a number that is not negative, in the scene's unit, or one with a %, of
-/// the diagonal of the scene's box.
+/// True if `word` is a distance that the options `within` and `separation` take: a number that is not negative, in the scene's unit, or
+/// one with a %, of the diagonal of the scene's box.
 bool is_distance(const std::string& word);
 
 /// Returns the distance for a scene, nothing for "none". A number is the nearest double; a share is multiplied in doubles by the diagonal

@@ -61,8 +61,11 @@ std::string frame_range_text(const FrameRange& range)
 
 void check_features(const CollideTask& task)
 {
-    for (const PipelineChoice& pipeline : task.pipelines)
+    for (const PipelineChoice& pipeline : task.pipelines) {
         check_narrow_of(pipeline.collider.narrow, pipeline.collider.question(task.swept));
+        if (pipeline.collider.separation != "none")
+            check_separation(pipeline.collider.narrow, task.swept);
+    }
     if (!task.has_features())
         return;
     if (task.swept && task.features)

@@ -5,6 +5,7 @@
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/python.h"
+#include "harness/choice/choices.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/record/result_file.h"
@@ -35,6 +36,7 @@ public:
         app.add_option("--samples", task_.samples, "timed runs a cell")
             ->capture_default_str()
             ->check(CLI::Range(1, most_samples));
+        add_choices(app, choice_, [](const Choice& one) { return one.key == "separation"; });
         app.add_option("--out", out_, "folder for the result file and figures")
             ->capture_default_str();
     }
@@ -44,6 +46,9 @@ public:
         const std::span<const Axis> axes =
             axis_.empty() ? accuracy_axes() : std::span(&find_axis(axis_), 1);
         task_.filter = cell_filter(filter_);
+        task_.separation = choice_.collider.separation;
+        if (task_.separation != "none" && axis_ != "impacts" && axis_ != "queries")
+            throw BadUsage("--separation is about motions: it needs --axis impacts or queries");
         const std::filesystem::path folder = out_;
         const std::filesystem::path file =
             folder / (axis_.empty() ? "accuracy.json" : "accuracy-" + axis_ + ".json");
@@ -76,6 +81,7 @@ public:
 private:
     std::string axis_;  ///< empty: all axes
     AxisTask task_;
+    CellChoice choice_;
     std::string filter_;
     std::string out_ = "out";
 };

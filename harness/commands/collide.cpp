@@ -105,9 +105,10 @@ private:
                         std::to_string(scenes_.size()));
             }
         const bool is_within = choice_.collider.is_within();
-        if (!pairs_.empty() && is_within)
+        if (!pairs_.empty() && (is_within || choice_.collider.separation != "none"))
             throw BadUsage(
-                "--within finds pairs of triangles and none of boxes: --contacts, not --pairs");
+                (is_within ? "--within finds pairs of triangles" : "--separation finds contacts") +
+                std::string(" and none of boxes: --contacts, not --pairs"));
         for (const std::string& name : names_.colliders) {
             const bool finds_contacts =
                 find_collider(name).finds_contacts || choice_.collider.first || is_within;

@@ -48,7 +48,7 @@ void judge_step(const Question& question, const GroundTruth& truth, const Found&
         if (missed > 0)
             cell.check.find_wrong(std::to_string(missed) + " pairs of the ground truth are missed");
     }
-    if (counted && has_pairs) {
+    if (counted && has_pairs && !cell.separation) {  // else boxes are padded
         cell.counters["reference_pairs_count"] = static_cast<double>(*counted);
         cell.check.against += ", meta.json";
         const bool may_be_more =  // than boxes of the doubles that were counted, or equal ones
@@ -111,7 +111,10 @@ void collide_features(Session& session, const CollideTask& task, int& order, con
         for (PipelineChoice pipeline : task.pipelines) {
             const Among among = std::exchange(pipeline.collider.among, question.among);
             pipeline.collider.keep_adjacent = false;
-            pipeline.collider.distance = distance_of(pipeline.collider.within, around);
+            ColliderChoice& asked = pipeline.collider;
+            asked.distance = distance_of(task.swept ? asked.separation : asked.within, around);
+            if (task.swept && asked.distance == 0.0)
+                asked.distance.reset();
             if (pipeline.collider.trees == TreeOver::automatic)
                 pipeline.collider.trees = TreeOver::object;
             if (among == Among::all || among == question.among)

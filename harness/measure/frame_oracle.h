@@ -13,13 +13,13 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/swept_reference.h"
 #include "collide/oracles/touching.h"
+#include "collide/within/padding.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
@@ -45,6 +45,7 @@ public:
     const PairList& in_file() const { return renumbered_ ? *renumbered_ : list; }
 
     PairList list;
+    PairList uncertain = {};  ///< pairs of which it is not known whether they are of the list
     AnswerFacts facts;
 
 private:
@@ -161,14 +162,13 @@ public:
 
     const Expected& pairs(const ColliderChoice& choice)
     {
-        const Asked asked = asked_of(choice);
-        Expected& pairs = entries_[asked].pairs;
+        Expected& pairs = entries_[key_of(choice, 0)].pairs;
         if (!pairs.is_asked())
-            pairs = Expected(key_of(asked, 'p'), "pairs", note_, [this, choice](OracleProgress&) {
+            pairs = Expected(key_of(choice, 'p'), "pairs", note_, [this, choice](OracleProgress&) {
                 require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
                 std::vector<Aabb> boxes = leaf_boxes(input_);
                 if (choice.distance)
-                    pad_boxes(boxes, *choice.distance);
+                    pad_boxes(boxes, distance_of_floats(input_, *choice.distance));
                 return Answer(touching_pairs(boxes, input_.faces, choice.keep_adjacent,
                                              input_.objects, choice.among, choice.filter),
                               file_faces_);
@@ -179,18 +179,20 @@ public:
     const Expected& contacts(const ColliderChoice& choice)
     {
         const std::shared_future<Answer> pairs = this->pairs(choice).later();
-        const Asked asked = asked_of(choice);
-        Expected& contacts = entries_[asked].contacts;
+        Expected& contacts = entries_[key_of(choice, 0)].contacts;
         if (!contacts.is_asked())
             contacts = Expected(
-                key_of(asked, 'c'), "contacts", note_, [=, this](OracleProgress& progress) {
+                key_of(choice, 'c'), "contacts", note_, [=, this](OracleProgress& progress) {
                     stop_thread_at("contacts");
                     const std::span<const Pair> candidates = pairs.get().list.pairs();
                     progress.total = candidates.size();
                     const auto touching = [&](auto points, auto end_points) {
-                        return Answer(pairs_of(touching_on_the_way(points, end_points, input_.faces,
-                                                                   candidates, &progress.done)),
-                                      file_faces_);
+                        const auto found =
+                            touching_on_the_way(points, end_points, input_.faces, candidates,
+                                                &progress.done, choice.distance.value_or(0));
+                        Answer answer(pairs_of(found), file_faces_);
+                        answer.uncertain = pairs_of(found, false);
+                        return answer;
                     };
                     if (input_.is_wide())
                         return touching(input_.wide.points, input_.wide.end_points);
@@ -202,7 +204,7 @@ public:
                                          choice.keep_adjacent, *choice.distance, &progress.done),
                             file_faces_);
                     Answer answer(intersecting_pairs(input_.points, input_.faces, candidates,
-                                                     std::get<1>(asked), &progress.done),
+                                                     choice.keep_adjacent, &progress.done),
                                   file_faces_);
                     answer.facts.touching =
                         only_touching(input_.points, input_.faces, answer.list.pairs());
@@ -215,25 +217,19 @@ private:
     /// Changes whenever an oracle answers differently, so that older answers are not found.
     static constexpr int oracle_version = 1;
 
-    /// The kind of pairs, whether adjacent ones are kept, the hash of the filter, and how far apart pairs may be.
-    using Asked = std::tuple<Among, bool, std::uint64_t, std::optional<double>>;
-    static Asked asked_of(const ColliderChoice& choice)
-    {
-        return {choice.among, choice.keep_adjacent, choice.filter.hash(), choice.distance};
-    }
     struct Entry {
         Expected pairs, contacts;
     };
 
-    std::uint64_t key_of(const Asked& asked, char list) const
+    std::uint64_t key_of(const ColliderChoice& choice, char list) const
     {
         Hash key = content_;
-        key.value(static_cast<int>(std::get<0>(asked)));
-        key.value(std::get<1>(asked));
-        if (const std::uint64_t filter = std::get<2>(asked); filter != 0)
+        key.value(static_cast<int>(choice.among));
+        key.value(choice.keep_adjacent);
+        if (const std::uint64_t filter = choice.filter.hash(); filter != 0)
             key.value(filter);
-        if (const std::optional<double> distance = std::get<3>(asked))
-            key.value(*distance);
+        if (choice.distance)
+            key.value(*choice.distance);
         key.value(list);
         return key.get();
     }
@@ -241,8 +237,8 @@ private:
     const Input& input_;
     std::span<const uint> file_faces_;
     Note note_;
-    Hash content_;  ///< of the frame
-    std::map<Asked, Entry> entries_;
+    Hash content_;                            ///< of the frame
+    std::map<std::uint64_t, Entry> entries_;  ///< by what is asked
 };
 
 }  // namespace bvhbench

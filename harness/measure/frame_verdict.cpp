@@ -16,7 +16,7 @@ namespace bvhbench {
 namespace {
 
 /// Writes how far the times of some contacts between two frames are before the exact ones. None may be later.
-void judge_times(const Pipeline& pipeline, const Input& input, Cell& cell)
+void judge_times(const Pipeline& pipeline, const Input& input, double separation, Cell& cell)
 {
     const PairList contacts(pipeline.contacts());
     const std::vector<float> times = pipeline.impact_times();
@@ -25,9 +25,9 @@ void judge_times(const Pipeline& pipeline, const Input& input, Cell& cell)
     std::vector<double> gaps;
     for (std::size_t k = 0; k < contacts.size(); k += step)
         some.push_back(contacts.pairs()[k]);
-    const std::vector<std::optional<ImpactTime>> right = impact_times(input, some);
+    const std::vector<std::optional<ImpactTime>> right = impact_times(input, some, separation);
     for (std::size_t k = 0; k < some.size(); ++k)
-        if (right[k])
+        if (right[k] && right[k]->no_later <= 1)
             gaps.push_back(right[k]->no_later - times[k * step]);
     if (gaps.empty())
         return;
@@ -92,30 +92,27 @@ private:
 
 namespace {
 
-/// Counts the errors of a narrow phase that is not exact. One that misses nothing may find what is none.
-void check_inexact(const PairList& found, const PairList& expected, bool may_miss, Cell& cell)
+/// Counts the errors of what may be found besides what is right: contacts of a narrow phase that is not exact, or pairs of boxes that were
+/// rounded outward. None may be missed or be found twice, unless it `may_miss`. The verdict becomes `counted` if they are the answer, and
+/// stays if they are candidates.
+void check_inexact(const PairList& found, const Answer& expected, const std::string& what,
+                   bool may_miss, bool is_answer, Cell& cell)
 {
-    const Differences wrong = count_errors(found, expected, cell);
+    Differences wrong = count_errors(found, expected.list, cell, what == "pairs" ? "pairs_" : "");
+    if (cell.separation) {
+        for (const Pair unknown : expected.uncertain.pairs())
+            wrong.false_ones -= std::ranges::binary_search(found.pairs(), unknown) ? 1 : 0;
+        cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+        cell.counters["uncertain_count"] = static_cast<double>(expected.uncertain.size());
+    }
     if (!may_miss && (wrong.missed > 0 || found.surplus() > 0))
-        cell.check.find_wrong(std::to_string(found.surplus()) + " contacts were found twice, " +
+        cell.check.find_wrong(std::to_string(found.surplus()) + ' ' + what + " were found twice, " +
                               std::to_string(wrong.missed) + " missed");
+    if (!is_answer)
+        return;
     if (cell.check.verdict == Check::Verdict::agrees)
         cell.check.verdict = Check::Verdict::counted;
-    cell.check.detail += (cell.check.detail.empty() ? "" : "; ") + wrong.text("contacts");
-}
-
-/// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes
-/// `counted` if the pairs are the answer, and stays if they are candidates for a narrow phase.
-void check_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
-{
-    const Differences wrong = count_errors(found, expected, cell, "pairs_");
-    if (found.surplus() > 0 || wrong.missed > 0) {
-        cell.check.find_wrong(std::to_string(found.surplus()) + " pairs were found twice, " +
-                              std::to_string(wrong.missed) + " missed");
-    } else if (is_answer) {
-        cell.check.verdict = Check::Verdict::counted;
-        cell.check.detail = wrong.text();
-    }
+    cell.check.detail += (cell.check.detail.empty() ? "" : "; ") + wrong.text(what);
 }
 
 }  // namespace
@@ -144,7 +141,7 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
 {
     cell.check = {.verdict = Check::Verdict::agrees};
     found = {.scene = found.scene};
-    cell.within_distance = cell.collider.distance;
+    (frame_.input.is_swept() ? cell.separation : cell.within_distance) = cell.collider.distance;
     if (pipeline.has_pairs() && !cell.collider.distance)  // else they are of padded boxes
         judge_pairs(pipeline, cell, found);
     if (cell.collider.first)
@@ -159,17 +156,13 @@ void FrameVerdict::judge(Pipeline& pipeline, Cell& cell, Found& found)
         frame_.judge_more(found, cell);
 }
 
-/// True if the pairs can be judged without a list of them: they are a device's, exact, and nobody wants the list.
-bool FrameVerdict::needs_no_list(const Pipeline& pipeline, const Cell& cell) const
-{
-    return !pipeline.collider().is_on_host() && !frame_.wants_lists &&
-           cell.features.pairs.empty() && !widens_boxes(cell.builder, cell.collider);
-}
-
 void FrameVerdict::judge_pairs(Pipeline& pipeline, Cell& cell, Found& found)
 {
     constexpr double many = 1 << 24;  // fewer are copied to the host and hashed in 0.1 s
-    const bool by_device = needs_no_list(pipeline, cell);
+    // They are a device's, exact, and nobody wants the list.
+    const bool by_device = !pipeline.collider().is_on_host() && !frame_.wants_lists &&
+                           cell.features.pairs.empty() &&
+                           !widens_boxes(cell.builder, cell.collider);
     try {
         const Expected& expected = oracle_.pairs(cell.collider);
         if (by_device && cell.counters.at("pairs_count") >= many &&
@@ -192,7 +185,8 @@ void FrameVerdict::judge_pairs_by_list(const Pipeline& pipeline, const Expected&
     const FoundList pairs(pipeline.pairs(), expected, frame_);
     cell.check.against = pairs_oracle;
     if (widens_boxes(cell.builder, cell.collider))
-        check_candidates(pairs.list(), expected.list().list, !pipeline.has_contacts(), cell);
+        check_inexact(pairs.list(), expected.list(), "pairs", false, !pipeline.has_contacts(),
+                      cell);
     else
         pairs.add_differences("pairs", cell.check);
     if (!cell.features.pairs.empty())
@@ -238,22 +232,21 @@ void FrameVerdict::judge_contacts(const Pipeline& pipeline, Cell& cell, Found& f
     const Expected& expected = oracle_.contacts(cell.collider);
     const FoundList contacts(pipeline.contacts(), expected, frame_);
     const bool is_swept = frame_.input.is_swept();
-    const bool is_within = cell.collider.distance.has_value();
     const std::string& narrow = cell.collider.narrow;  // "none" of --within
     const bool own = pipeline.collider().finds_contacts();
     if (own ? !is_swept : narrow == "none" || find_narrow_method(narrow).is_exact)
         contacts.add_differences("contacts", check);
     else
-        check_inexact(contacts.list(), expected.list().list,
-                      !own && !find_narrow_method(narrow).misses_none(), cell);
+        check_inexact(contacts.list(), expected.list(), "contacts",
+                      !own && !find_narrow_method(narrow).misses_none(), true, cell);
     found.contacts = contacts.in_file(check.contacts_hash);
     if (const std::vector<double> off = pipeline.distance_errors(frame_.input); !off.empty()) {
         cell.counters["distance_error_median"] = off[off.size() / 2];
         cell.counters["distance_error_most"] = off.back();
     }
     if (is_swept && !own)
-        judge_times(pipeline, frame_.input, cell);
-    if (!is_swept && !is_within && contacts.is_right())
+        judge_times(pipeline, frame_.input, cell.collider.distance.value_or(0), cell);
+    if (!is_swept && !cell.collider.distance && contacts.is_right())
         cell.counters["touching_count"] = static_cast<double>(expected.facts().touching);
 }
 

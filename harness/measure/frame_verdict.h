@@ -30,7 +30,6 @@ public:
 private:
     class FoundList;
 
-    bool needs_no_list(const Pipeline& pipeline, const Cell& cell) const;
     void judge_pairs(Pipeline& pipeline, Cell& cell, Found& found);
     void judge_pairs_by_list(const Pipeline& pipeline, const Expected& expected, Cell& cell,
                              Found& found) const;

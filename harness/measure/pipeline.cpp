@@ -74,25 +74,32 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
     check_trees(collider, *collider_, builder_.get());
-    const bool pads = collider.distance && !from_outside;
+    const bool pads = collider.distance && (input.is_swept() || !from_outside);
     if (pads && (collider_->is_on_host() || collider_->finds_contacts() ||
                  (builder_ && builder_->card().runs != BuilderCard::Runs::on_device) ||
                  (builder_ && find_builder(choice_.name).outside != nullptr)))
-        throw BadUsage("'within' pads boxes on the device: a collider of the host and a " +
-                       std::string("builder of the host or from outside do without"));
+        throw BadUsage((input.is_swept() ? "'separation'" : "'within'") +
+                       std::string(" pads boxes on the device: a collider of the host and a "
+                                   "builder of the host or from outside do without"));
     reserve_for(input);
-    if (pads) {
+    if (pads && input.is_swept()) {
+        padding_.emplace(session.programs(), collider.form, true);
+        padding_->reserve(input.device_points.size());
+    }
+    if (pads && !input.is_swept()) {
         within_.emplace(session.programs(), WithinOptions{.distance = *collider.distance,
                                                           .method = collider.narrow,
                                                           .keep_adjacent = collider.keep_adjacent,
                                                           .form = collider.form});
         within_->reserve(input.device_points.size(), input.triangle_count());
     } else if (collider.narrow != "none" && !collider_->finds_contacts()) {
-        narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
-                                                          .keep_adjacent = collider.keep_adjacent,
-                                                          .form = collider.form,
-                                                          .swept_size = swept_size(input),
-                                                          .is_wide = input.is_wide()});
+        narrow_.emplace(session.programs(),
+                        NarrowOptions{.method = collider.narrow,
+                                      .keep_adjacent = collider.keep_adjacent,
+                                      .form = collider.form,
+                                      .swept_size = swept_size(input),
+                                      .separation = padding_ ? *collider.distance : 0,
+                                      .is_wide = input.is_wide()});
         narrow_->reserve(input.triangle_count());
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
@@ -141,6 +148,8 @@ void Pipeline::enqueue(const Input& input)
     if (within_) {
         enqueue_query(within_->padded(input, queue));
         within_->query(input, collider_->device_pairs(queue), queue);
+    } else if (padding_) {
+        enqueue_query(padding_->padded(input, reach_, queue));
     } else if (!is_plain()) {
         enqueue_margin(input);
     } else if (!entering_) {
@@ -189,6 +198,8 @@ std::vector<StageTime> Pipeline::prepare(const Input& input)
     begin_margin(input);
     if (is_plain())
         choose_entering(input);
+    if (padding_ && narrow_)
+        reach_ = reach_of(distance_of_floats(input, narrow_->separation()));
     std::vector<StageTime> stages;
     do {
         enqueue(input);
@@ -211,8 +222,7 @@ void Pipeline::declare_found(std::vector<StageTime>& stages) const
     const auto bytes = [](std::uint64_t pairs) {
         return static_cast<std::int64_t>(pairs * sizeof(Pair));
     };
-    const std::int64_t pairs = bytes(pair_count());
-    add_moved_bytes(stages, "broad", pairs);
+    add_moved_bytes(stages, "broad", bytes(pair_count()));
     if (!narrow_)
         return;
     const std::uint64_t contacts = narrow_->counts(queue).contacts;

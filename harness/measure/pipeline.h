@@ -123,6 +123,8 @@ private:
     std::optional<NarrowPhase> narrow_;
     /// If pairs within a distance are asked for, in place of narrow_.
     std::optional<WithinPhase> within_;
+    std::optional<Padding> padding_;            ///< if features are kept a separation apart
+    float reach_ = 0;                           ///< of the padding, to each side
     std::optional<NearTriangles> near_;         ///< if the rule `near` may apply
     std::optional<Entering> entering_;          ///< if the rule applies; else all triangles enter
     std::optional<MarginPairs> margin_;         ///< if the rule `margin` may apply

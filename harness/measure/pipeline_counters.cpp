@@ -108,7 +108,8 @@ std::map<std::string, double> Pipeline::counters() const
         put("narrow_exact_count", narrow.exactly);
         if (narrow_->is_swept() && narrow.contacts > 0)
             put("earliest_impact", std::ranges::min(narrow_->impact_times(queue)));
-        put_bytes("narrow_bytes", narrow_->reserved().total());
+        put_bytes("narrow_bytes",
+                  narrow_->reserved().total() + (padding_ ? padding_->reserved().total() : 0));
     }
     if (within_) {
         const WithinCounts within = within_->counts(queue);

@@ -151,6 +151,8 @@ std::string cell_text(const Cell& cell)
     json["check"] = json_of(cell.check);
     if (cell.within_distance)
         json["within_distance"] = *cell.within_distance;
+    if (cell.separation)
+        json["separation"] = *cell.separation;
     if (cell.first_contact)
         json["first_contact"] = *cell.first_contact;
     for (const auto& [object, of] : cell.contained)

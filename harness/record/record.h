@@ -131,6 +131,8 @@ struct Cell {
     Check check = {};
     /// With `within`: the distance in the scene's unit, for which pairs are exact.
     std::optional<double> within_distance = {};
+    /// With `separation`: the minimum separation in the scene's unit.
+    std::optional<double> separation = {};
     /// With `first`: two triangles that intersect, by their numbers in the scene's file; empty: no two do.
     std::optional<std::vector<uint>> first_contact = {};
     /// Objects that lie wholly inside others, each with the name of the other (--containment).

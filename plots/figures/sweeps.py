@@ -17,7 +17,8 @@ from . import frame_bars, pareto_orders, scaling
 OWN = {path.stem for path in (pathlib.Path(__file__).resolve().parents[2] / "harness" / "experiments").glob("*.json")}
 MOST_PANELS = 8
 MOST_BARS = 150
-ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all", "first": "False", "within": "none"}  # defaults of the options that change what is found
+# Defaults of the options that change what is found.
+ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all", "first": "False", "within": "none", "separation": "none"}
 FRAME = "A frame is all from moved vertices to pairs, or to contacts where a narrow phase follows."
 
 

@@ -58,6 +58,8 @@ def asked(cell: Cell) -> str:
         words.append(f"within {options['within']}")
     elif narrow != "none":
         words.append(f"contacts ({narrow})")
+    if options.get("separation", "none") != "none":
+        words.append(f"{options['separation']} apart")
     return ", ".join(words + caches)
 
 

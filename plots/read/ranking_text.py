@@ -13,7 +13,7 @@ UNIT = {"frame": "a frame", "query": "a query", "build": "a build", "memory": ""
 MOST_TIED = 5  # that the sentence names
 MOST_WARNINGS = 5
 BY_WALL = " by the wall clock"
-QUESTION = ("adjacent", "narrow", "pairs_of", "first", "within")  # options of a collider that change what is found
+QUESTION = ("adjacent", "narrow", "pairs_of", "first", "within", "separation")  # options of a collider that change what is found
 
 
 def options_of(cell: Cell) -> dict[str, str]:

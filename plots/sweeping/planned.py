@@ -12,8 +12,8 @@ NO_BUILDER = "none"  # for colliders without a tree
 OPTIONS = {"grid": ("builder", "grid"), "builder.group_size": ("builder", "group_size"), "items": ("builder", "items"),
            "boxes": ("builder", "boxes"), "leaves": ("builder", "leaves"), "pairs_of": ("query", "pairs_of"),
            "adjacent": ("query", "adjacent"), "narrow": ("query", "narrow"), "first": ("query", "first"), "within": ("query", "within"),
-           "no_skip": ("query", "no_skip"), "force_skip": ("query", "force_skip"), "update": ("query", "update"), "trees": ("query", "trees"),
-           "jump": ("collider", "jump"), "start_level": ("collider", "start_level"),
+           "separation": ("query", "separation"), "no_skip": ("query", "no_skip"), "force_skip": ("query", "force_skip"),
+           "update": ("query", "update"), "trees": ("query", "trees"), "jump": ("collider", "jump"), "start_level": ("collider", "start_level"),
            "collider.group_size": ("collider", "group_size"), "frames": ("scene", "frames"), "between": ("scene", "between"),
            "objects": ("scene", "objects"), "swept": ("scene", "swept"),
            "features": ("scene", "features")}

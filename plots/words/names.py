@@ -27,7 +27,7 @@ OPTIONS = {"no_skip": ("", "without {}"), "force_skip": ("", "{} forced"),
 USED = {"start": ("", "from {}")}
 # Options that change what is found. Figures show them elsewhere.
 ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}"),
-           "first": ("False", "first contact"), "within": ("none", "within {}")}
+           "first": ("False", "first contact"), "within": ("none", "within {}"), "separation": ("none", "{} apart")}
 # Where samples find their data, if not in hot caches.
 CACHES = {"cold": "cold caches", "host": "from host to host"}
 # Names that say more than the command line's.

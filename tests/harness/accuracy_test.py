@@ -94,6 +94,10 @@ def test_accuracy_of_queries_misses_nothing_with_bounds():
         assert cell["counters"]["touching_count"] == 1 and cell["counters"]["missed_count"] == 0, cell
         assert 0 <= cell["counters"]["gap_median"] < 0.05, cell
     assert pathlib.Path("r/accuracy-queries.png").exists() or "nothing was drawn" in done.stdout
+    expect(0, "accuracy", "--axis", "queries", "--scene", "cross_ee.csv", "--samples", "1", "--out", "q", "--separation", "0.25")
+    cells = {cell["accuracy"]["method"]: cell for cell in valid("q/accuracy-queries.json")["cells"]}  # as near at a quarter of the step
+    assert all("in one plane" in cell["reason"] if name.startswith("roots") else cell["separation"] == .25 and
+               cell["counters"]["late_count"] == 0 <= cell["counters"]["gap_median"] < 0.05 for name, cell in cells.items()), cells
 
 
 def test_accuracy_of_frames_is_exact_until_the_narrow_phase_or_the_vertices_are_rounded():

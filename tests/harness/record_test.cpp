@@ -95,7 +95,7 @@ TEST(Record, TellsAllThatACellIsAbout)
     EXPECT_EQ(at("/builder/options/boxes"), "u16");
     EXPECT_EQ(at("/collider"),
               Json::parse(R"({"name": "leaf", "options": {"pairs_of": "between", "adjacent": "drop",
-        "narrow": "exact", "first": false, "within": "none", "no_skip": "", "force_skip": "", "update": "auto", "trees": "object", "jump": 3, "start_level": 2, "group_size": 64}})"));
+        "narrow": "exact", "first": false, "within": "none", "separation": "none", "no_skip": "", "force_skip": "", "update": "auto", "trees": "object", "jump": 3, "start_level": 2, "group_size": 64}})"));
     EXPECT_EQ(at("/scene/outlier/diameters"), 2.5);
     EXPECT_EQ(at("/scene/doubles/offset/0"), 4500123.45);
     EXPECT_EQ(at("/scene/objects_by"), "components");
