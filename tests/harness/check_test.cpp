@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "builders/host_tree.h"
+#include "tests/harness/host_lbvh.h"
 
 namespace bvhbench {
 namespace {
@@ -14,15 +15,7 @@ const std::vector<Face> faces = {{0, 1, 2}, {1, 2, 3}};
 const std::vector<Point> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
 const std::vector<Point> moved = {{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {5, 5, 6}};
 
-HostTree tree_over(const std::vector<Point>& at)
-{
-    HostTree tree;
-    tree.nodes.resize(3);
-    tree.nodes[0].child = {1, 2};
-    tree.nodes[1].primitive = 0;
-    tree.nodes[2].primitive = 1;
-    return refitted(std::move(tree), at, faces);
-}
+HostTree tree_over(const std::vector<Point>& at) { return host_chain({at, faces}); }
 
 /// Returns the verdict on `tree` as a refit to the moved points; the tree over the original points had the verdict `before`.
 Check verdict_on(const HostTree& tree, Check::Verdict before = agrees)

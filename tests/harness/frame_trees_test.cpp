@@ -1,53 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Tests the options `update` and `trees`: what is done to the trees of each frame, and that the pairs are the oracle's.
-
-#include "harness/measure/frames.h"
-#include "tests/collide/collider_testing.h"
+#include "tests/harness/frame_runs.h"
 #include "tests/refusal.h"
 
 namespace bvhbench {
 namespace {
 
-using Counters = std::map<std::string, double>;
-
-/// Runs a pipeline over the frames of a scene, compares each frame's pairs with the oracle's, and returns each frame's counters.
-std::vector<Counters> run_frames(const Scene& scene, const BuilderChoice& builder,
-                                 const ColliderChoice& collider)
-{
-    SCOPED_TRACE(collider.name + " over " + builder.name);
-    Input input = upload_frame(session(), scene, 0);
-    Pipeline pipeline(session(), builder, collider, input);
-    std::vector<Counters> all;
-    for (std::size_t frame = 0; frame < scene.frames.size(); ++frame) {
-        go_to(scene.frames[frame], pipeline, input,
-              frame == 0 ? std::vector<Motion>{} : object_motions(scene, frame - 1, frame));
-        all.push_back(pipeline.counters());
-        const PairList expected = touching_pairs(input.points, input.faces, collider.keep_adjacent,
-                                                 input.objects, collider.among);
-        EXPECT_GT(expected.size(), 0u);
-        for (int sample = 0; sample < 2; ++sample) {
-            pipeline.once(input);
-            EXPECT_EQ(PairList(pipeline.pairs()), expected) << "frame " << frame;
-            EXPECT_EQ(PairList(pipeline.pairs()).surplus(), 0u);
-        }
-        EXPECT_EQ(pipeline.counters().at("pairs_count"), all.back().at("pairs_count"));
-    }
-    return all;
-}
-
 ColliderChoice with_trees(TreeOver trees, ColliderChoice choice)
 {
     choice.trees = trees;
     return choice;
-}
-
-void expect_updates(const Counters& counters, double rebuilt, double refitted, double kept)
-{
-    EXPECT_EQ(counters.at("rebuilt_objects_count"), rebuilt);
-    EXPECT_EQ(counters.at("refitted_objects_count"), refitted);
-    EXPECT_EQ(counters.at("kept_objects_count"), kept);
-    EXPECT_EQ(counters.at("sorts_count"), rebuilt > 0 ? 1 : 0);
 }
 
 /// Expects that making the pipeline is refused, in a sentence with these words.
@@ -226,8 +189,7 @@ Scene waving_sheet(float step)
 TEST(Deforming, IsRefittedWhileQueriesTestHardlyMoreBoxes)
 {
     const Scene scene = waving_sheet(0.01f);
-    ColliderChoice forced{{}, "leaf"};
-    forced.rules_forced = skip_deforming;
+    ColliderChoice forced{{}, "leaf", "none", skip_deforming};
     const BuilderChoice multi{.name = "oibvh-multi"};
     const std::vector<Counters> with = run_frames(scene, multi, forced);
     expect_updates(with[0], 1, 0, 0);
@@ -247,10 +209,8 @@ TEST(Margin, IsNotUsedWhereTreesAreToBeRebuiltOrRefittedInEachFrame)
     const Scene still = waving_sheet(0);
     for (const FrameUpdate update :
          {FrameUpdate::automatic, FrameUpdate::rebuild, FrameUpdate::refit}) {
-        ColliderChoice forced{{}, "leaf"};
-        forced.rules_forced = skip_margin;
-        forced.update = update;
-        const std::vector<Counters> frames = run_frames(still, {.name = "oibvh-multi"}, forced);
+        const std::vector<Counters> frames =
+            run_frames(still, {.name = "oibvh-multi"}, {{}, "leaf", "none", skip_margin, update});
         EXPECT_EQ(frames[2].contains("listed_count"), update == FrameUpdate::automatic);
     }
 }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "geometry/error.h"
 #include "harness/judge/end_point_overlap.h"

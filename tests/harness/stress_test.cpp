@@ -13,6 +13,7 @@
 #include "geometry/error.h"
 #include "harness/stress/libraries.h"
 #include "harness/stress/run.h"
+#include "tests/harness/host_lbvh.h"
 
 namespace bvhbench {
 namespace {
@@ -40,18 +41,6 @@ PairList shortened(const PairList& pairs)
     return PairList({pairs.pairs().begin(), pairs.pairs().end() - 1});
 }
 
-HostTree tree_over(const Mesh& mesh)
-{
-    HostTree tree;  // a chain: leaf k is a child of inner node k
-    const std::size_t leaves = mesh.faces.size();
-    tree.nodes.resize(2 * leaves - 1);
-    for (std::size_t k = 0; k + 1 < leaves; ++k)
-        tree.nodes[2 * k].child = {static_cast<int>(2 * k + 1), static_cast<int>(2 * k + 2)};
-    for (std::size_t k = 0; k < leaves; ++k)
-        tree.nodes[k + 1 < leaves ? 2 * k + 1 : 2 * k].primitive = static_cast<int>(k);
-    return refitted(std::move(tree), mesh.points, mesh.faces);
-}
-
 Findings judged(const HostTree& tree, const Mesh& mesh)
 {
     return judge_tree(tree, mesh.points, mesh.faces);
@@ -60,7 +49,7 @@ Findings judged(const HostTree& tree, const Mesh& mesh)
 TEST(StressTree, NoticesAMissingLeafABoxThatIsTooSmallAndOneThatIsTooLarge)
 {
     const Mesh mesh = spheres().mesh;
-    const HostTree right = tree_over(mesh);
+    const HostTree right = host_chain(mesh);
     EXPECT_EQ(judged(right, mesh).at(Invariant::leaves).verdict, holds);
     EXPECT_EQ(judged(right, mesh).at(Invariant::boxes).verdict, holds);
 

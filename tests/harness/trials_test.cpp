@@ -3,8 +3,6 @@
 // Tests that every tuning target is correct with each value of each parameter, one at a time, and that errors are reported.
 #include "harness/tune/trials.h"
 
-#include <gtest/gtest.h>
-
 #include "builders/parameters.h"
 #include "collide/parameters.h"
 #include "harness/base/failure.h"
