@@ -6,6 +6,8 @@
 namespace bvhbench {
 namespace {
 
+using enum Contest::Place;
+
 /// Returns a measured cell with one sample: `before` ns until the leaves, then the tree and the query.
 Cell cell(const char* builder, const char* order, const char* collider, std::int64_t before,
           std::int64_t tree, std::int64_t query)
@@ -66,7 +68,7 @@ TEST(Contest, AFrameIsComparedWithItself)
     contest.compare(cell("oibvh-multi", "morton30", "group", 4, 2, 4));
     contest.end_frame(std::vector{cell("oibvh-multi", "morton30", "group", 4, 2, 4)});
     EXPECT_EQ(contest.compare(cell("oibvh-multi", "morton30", "group", 400, 200, 400)),
-              Contest::Place::in_the_race);
+              in_the_race);
 }
 
 TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
@@ -75,11 +77,11 @@ TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
     contest.compare(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
     const Cell slow = cell("karras", "morton30", "group", 40, 220, 60);
     const std::vector<StageTime> quick = {{"broad", 60, 60, 0, 1}, {"hierarchy", 30, 30, 0, 1}};
-    EXPECT_EQ(contest.compare(slow, quick), Contest::Place::slow_once);
-    EXPECT_EQ(contest.compare(slow, slow.samples[0].stages), Contest::Place::far_behind);
-    EXPECT_EQ(contest.compare(slow), Contest::Place::far_behind);
+    EXPECT_EQ(contest.compare(slow, quick), slow_once);
+    EXPECT_EQ(contest.compare(slow, slow.samples[0].stages), far_behind);
+    EXPECT_EQ(contest.compare(slow), far_behind);
     // Neither does a machine that is slower for a while: the best takes longer now, too.
-    EXPECT_EQ(contest.compare(slow, {}, 1.1), Contest::Place::in_the_race);
+    EXPECT_EQ(contest.compare(slow, {}, 1.1), in_the_race);
     // What is known of a stage is the least of all runs.
     EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "leaf")), "");
 }
@@ -91,7 +93,7 @@ TEST(Contest, WrongCellsAndThoseOfNoRaceTellNothing)
     wrong.check.verdict = Check::Verdict::differs;
     contest.compare(wrong);
     const Cell slow = cell("oibvh-multi", "morton30", "leaf", 900, 900, 900);
-    EXPECT_EQ(contest.compare(slow), Contest::Place::in_the_race);
+    EXPECT_EQ(contest.compare(slow), in_the_race);
     for (Contest* one : {&contest, &none}) {
         one->compare(cell("karras", "morton30", "leaf", 1, 1, 1));
         EXPECT_EQ(one->why_not(slow).empty(), one == &none);
@@ -104,10 +106,8 @@ TEST(Contest, ARaceForQueriesCountsQueriesOnly)
     contest.compare(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
     contest.compare(cell("oibvh-multi", "kd", "group", 4000, 20, 30));
     EXPECT_EQ(contest.why_not(planned("oibvh-single", "kd", "group")), "");
-    EXPECT_EQ(contest.compare(cell("oibvh-multi", "kd", "leaf", 4000, 20, 90)),
-              Contest::Place::in_the_race);
-    EXPECT_EQ(contest.compare(cell("oibvh-multi", "kd", "leaf", 40, 20, 91)),
-              Contest::Place::far_behind);
+    EXPECT_EQ(contest.compare(cell("oibvh-multi", "kd", "leaf", 4000, 20, 90)), in_the_race);
+    EXPECT_EQ(contest.compare(cell("oibvh-multi", "kd", "leaf", 40, 20, 91)), far_behind);
 }
 
 TEST(Contest, WhoIsFarBehindOverTheFramesIsLeftBehind)
@@ -156,7 +156,7 @@ TEST(Contest, OfMemoryNothingIsKnownBeforeACellIsRun)
     one.counters["memory_bytes"] = 64;
     EXPECT_EQ(bytes_held(one), 64);
     contest.compare(cell("oibvh-multi", "morton30", "group", 1, 1, 1));
-    EXPECT_EQ(contest.compare(one), Contest::Place::in_the_race);
+    EXPECT_EQ(contest.compare(one), in_the_race);
     EXPECT_EQ(contest.why_not(planned("oibvh-single", "kd", "group")), "");
     Cell other = one;
     other.counters = {{"tree_bytes", 100.0}, {"scratch_bytes", 40.0}};

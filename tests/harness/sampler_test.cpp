@@ -8,16 +8,18 @@
 namespace bvhbench {
 namespace {
 
-/// A builder that only counts: its n-th build reports n nanoseconds.
+/// A builder that only counts: its n-th build reports n nanoseconds, and an impossible time if `bad_each` divides n.
 struct FakeBuild {
     int builds = 0;
     int fails_at = -1;
+    int bad_each = 0;
 
     std::vector<StageTime> operator()()
     {
         if (builds == fails_at)
             throw Unavailable("out of device memory");
-        ++builds;
+        if (++builds; bad_each > 0 && builds % bad_each == 0)
+            throw BadClock(true, "a launch ended before it began");
         return {{"hierarchy", builds, builds, 0, 1, 0}};
     }
 };
@@ -212,22 +214,9 @@ TEST(Sampler, GoesOnWithoutACalibrationThatFailsAndMarksNothing)
     }
 }
 
-/// Has impossible times in every `each`-th sample; in none if it is 0.
-struct BadClocked {
-    int each = 0;
-    int builds = 0;
-
-    std::vector<StageTime> operator()()
-    {
-        if (++builds; each > 0 && builds % each == 0)
-            throw BadClock(true, "a launch ended before it began");
-        return {{"hierarchy", 1000, 1000, 0, 1, 0}};
-    }
-};
-
 TEST(Sampler, DropsAFewSamplesWithImpossibleTimes)
 {
-    BadClocked seldom{20}, often{5};
+    FakeBuild seldom{.bad_each = 20}, often{.bad_each = 5};
     const std::vector<CellSamples> all = sampled({.samples = 50, .warm_up = 1}, seldom, often);
     EXPECT_EQ(all[0].samples.size(), 50u);
     EXPECT_EQ(all[0].dropped, 2);

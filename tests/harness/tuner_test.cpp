@@ -82,12 +82,13 @@ const TrialResult& tried(const SearchResult& result, const Parameter& parameter,
     throw std::out_of_range("not tried");
 }
 
-TEST(Search, KeepsTheFastestValueOfEachParameter)
+struct Search : testing::Test, World {};
+
+TEST_F(Search, KeepsTheFastestValueOfEachParameter)
 {
-    World world;
-    world.sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : keys == 2 ? 800 : 1000; };
-    world.hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
-    const SearchResult result = searched(world);
+    sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : keys == 2 ? 800 : 1000; };
+    hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
+    const SearchResult result = searched(*this);
     EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
     EXPECT_EQ(result.best.value(items_parameter, true), 3u);
     EXPECT_EQ(result.kept.size(), 2u);
@@ -100,78 +101,72 @@ TEST(Search, KeepsTheFastestValueOfEachParameter)
     EXPECT_NEAR(result.best_ns, 900, 20);
 }
 
-TEST(Search, NeverChoosesAWrongAnswerHoweverFast)
+TEST_F(Search, NeverChoosesAWrongAnswerHoweverFast)
 {
-    World world;
-    world.sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : keys == 8 ? 900 : 1000; };
-    world.wrong = [](uint keys) { return keys == 16 ? "box 7 differs" : ""; };
-    const SearchResult result = searched(world);
+    sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : keys == 8 ? 900 : 1000; };
+    wrong = [](uint keys) { return keys == 16 ? "box 7 differs" : ""; };
+    const SearchResult result = searched(*this);
     EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
     EXPECT_EQ(tried(result, keys_parameter, 16).verdict, TrialResult::Verdict::wrong);
     EXPECT_EQ(tried(result, keys_parameter, 16).median_ns, 0) << "a wrong answer has no time";
     EXPECT_NE(search_report(result).find("wrong: box 7 differs"), std::string::npos);
 }
 
-TEST(Search, NeverChoosesWhatIsWrongOnlyAfterItWasTimed)
+TEST_F(Search, NeverChoosesWhatIsWrongOnlyAfterItWasTimed)
 {
-    World world;
     int checks = 0;
-    world.sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : 1000; };
-    world.wrong = [&](uint keys) { return keys == 16 && ++checks % 2 == 0 ? "a race" : ""; };
-    const SearchResult result = searched(world);
+    sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : 1000; };
+    wrong = [&](uint keys) { return keys == 16 && ++checks % 2 == 0 ? "a race" : ""; };
+    const SearchResult result = searched(*this);
     EXPECT_EQ(result.best.value(keys_parameter, true), 4u);
     EXPECT_EQ(tried(result, keys_parameter, 16).verdict, TrialResult::Verdict::wrong);
 }
 
-TEST(Search, PassesOverWhatTheDeviceCannotDo)
+TEST_F(Search, PassesOverWhatTheDeviceCannotDo)
 {
-    World world;
-    world.sort_ns = [](uint keys, uint) { return keys == 2 ? 900 : 1000; };
-    world.make = [](uint keys) {
+    sort_ns = [](uint keys, uint) { return keys == 2 ? 900 : 1000; };
+    make = [](uint keys) {
         if (keys == 16)
             throw Unavailable("needs 70000 bytes of local memory\nand a log");
     };
-    const SearchResult result = searched(world);
+    const SearchResult result = searched(*this);
     EXPECT_EQ(result.best.value(keys_parameter, true), 2u);
     EXPECT_EQ(tried(result, keys_parameter, 16).verdict, TrialResult::Verdict::impossible);
     EXPECT_EQ(tried(result, keys_parameter, 16).detail, "needs 70000 bytes of local memory");
 }
 
-TEST(Search, LeavesEverythingWhereNothingIsBetterByMoreThanNoise)
+TEST_F(Search, LeavesEverythingWhereNothingIsBetterByMoreThanNoise)
 {
-    World world;
-    world.sort_ns = [](uint keys, uint) { return keys == 8 ? 995 : 1000; };
-    const SearchResult result = searched(world);
+    sort_ns = [](uint keys, uint) { return keys == 8 ? 995 : 1000; };
+    const SearchResult result = searched(*this);
     EXPECT_TRUE(result.kept.empty());
     EXPECT_TRUE(result.best.values().empty());
     EXPECT_EQ(result.best_ns, 0) << "nothing to compare in the end";
     EXPECT_EQ(result.searched, (std::set<const Parameter*>{&keys_parameter, &items_parameter}));
 }
 
-TEST(Search, GivesUpWhatMakesTheWholeNoFaster)
+TEST_F(Search, GivesUpWhatMakesTheWholeNoFaster)
 {
-    World world;  // the hierarchy loses what the sort gains
-    world.sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : 1000; };
-    world.hierarchy_ns = [](uint keys, uint) { return keys == 8 ? 900 : 400; };
-    const SearchResult result = searched(world);
+    // The hierarchy loses what the sort gains.
+    sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : 1000; };
+    hierarchy_ns = [](uint keys, uint) { return keys == 8 ? 900 : 400; };
+    const SearchResult result = searched(*this);
     EXPECT_EQ(tried(result, keys_parameter, 8).verdict, TrialResult::Verdict::better);
     EXPECT_TRUE(result.kept.empty());
     EXPECT_FALSE(result.best.has(keys_parameter));
     EXPECT_NE(search_report(result).find("not faster, nothing is kept"), std::string::npos);
 }
 
-TEST(Search, GoesThroughAllAgainWhereOneDependsOnAnother)
+TEST_F(Search, GoesThroughAllAgainWhereOneDependsOnAnother)
 {
-    World world;  // more keys pay only with more items, which are tuned first (by name)
-    world.sort_ns = [](uint keys, uint items) {
-        return keys == 8 ? (items == 2 ? 500 : 700) : 1000;
-    };
-    world.hierarchy_ns = [](uint keys, uint items) { return items == 2 && keys == 8 ? 100 : 500; };
-    EXPECT_EQ(searched(world, {}, 1).best.value(items_parameter, true), 1u);
-    EXPECT_EQ(searched(world, {}, 2).best.value(items_parameter, true), 2u);
+    // More keys pay only with more items, which are tuned first (by name).
+    sort_ns = [](uint keys, uint items) { return keys == 8 ? (items == 2 ? 500 : 700) : 1000; };
+    hierarchy_ns = [](uint keys, uint items) { return items == 2 && keys == 8 ? 100 : 500; };
+    EXPECT_EQ(searched(*this, {}, 1).best.value(items_parameter, true), 1u);
+    EXPECT_EQ(searched(*this, {}, 2).best.value(items_parameter, true), 2u);
 }
 
-TEST(Search, StartsFromDefaultsAndLeavesOtherParametersAsTheyAre)
+TEST_F(Search, StartsFromDefaultsAndLeavesOtherParametersAsTheyAre)
 {
     Tuning start;
     start.set(keys_parameter, 16);
@@ -183,19 +178,17 @@ TEST(Search, StartsFromDefaultsAndLeavesOtherParametersAsTheyAre)
     EXPECT_THROW(tried(result, aside_parameter, 1), std::out_of_range) << "nobody asked for it";
 }
 
-TEST(Search, EndsWhereTheAnswerIsWrongBeforeAnythingIsTuned)
+TEST_F(Search, EndsWhereTheAnswerIsWrongBeforeAnythingIsTuned)
 {
-    World world;
-    world.wrong = [](uint) { return "wrong everywhere"; };
-    EXPECT_THROW(searched(world), Unavailable);
+    wrong = [](uint) { return "wrong everywhere"; };
+    EXPECT_THROW(searched(*this), Unavailable);
 }
 
-TEST(Search, HasWhatWasFoundWheneverItSaysWhatItDoes)
+TEST_F(Search, HasWhatWasFoundWheneverItSaysWhatItDoes)
 {
-    World world;
-    world.hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
+    hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
     bool was_told = false, was_there = false;
-    searched(world, {}, 2, [&](const std::string& what, const SearchResult& so_far) {
+    searched(*this, {}, 2, [&](const std::string& what, const SearchResult& so_far) {
         if (what != "fake.keys = 16" || was_told)  // last candidate of the second parameter
             return;
         was_told = true;
