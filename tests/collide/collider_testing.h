@@ -3,15 +3,11 @@
 // Shared by the tests of colliders: a session, meshes that are hard for queries, and checks of the pairs of a query.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 #include <set>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

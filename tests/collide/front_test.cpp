@@ -28,6 +28,8 @@ protected:
     {
         return {.sorted_leaves = std::get<3>(GetParam()) == Leaves::sorted};
     }
+
+    const Moving moving;
 };
 
 /// Runs small motions, and jumps that deform all triangles.
@@ -43,7 +45,6 @@ void run_all(Tracked& tracked, const Moving& moving)
 
 TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
 {
-    const Moving moving;
     for (const bool keep_adjacent : {true, false})
         for (const std::size_t capacity : {0u, 1u}) {
             const bool is_large = capacity == 0, has_groups = form() == KernelForm::groups;
@@ -61,7 +62,6 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
 
 TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)
 {
-    const Moving moving;
     for (const Among among : {Among::all, Among::between_objects, Among::within_objects}) {
         SCOPED_TRACE(static_cast<int>(among));
         Tracked tracked(moving, false, make(), front(),
@@ -73,7 +73,6 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)
 
 TEST_P(FrontOver, NoticesObjectsThatComeBack)
 {
-    const Moving moving;
     Tracked tracked(moving, false, make(), front(),
                     {.among = Among::between_objects, .form = form()}, build());
     const auto move_to = [&](float x) {
@@ -92,7 +91,6 @@ TEST_P(FrontOver, NoticesObjectsThatComeBack)
 
 TEST_P(FrontOver, IsKeptWhereNothingMoves)
 {
-    const Moving moving;
     Tracked tracked(moving, true, make(), front(), {.form = form()}, build());
     tracked.expect_pairs_at(moving.moved(0.01f, 1));
     const auto first = tracked.counted();
@@ -113,7 +111,6 @@ TEST_P(FrontOver, IsKeptWhereNothingMoves)
 
 TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
 {
-    const Moving moving;
     Tracked tracked(moving, false, make(), front(), {.form = form()}, build());
     const int frames = takes_few_cases() ? 4 : 6, repeats = takes_few_cases() ? 1 : 3;
     for (int frame = 0; frame < frames; ++frame) {
@@ -127,7 +124,6 @@ TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
 TEST_P(FrontOver, ClimbsBackWhenItHasGrown)
 {
     // Over the same tree, a front just maintained depends on the points alone, not on the frames before.
-    const Moving moving;
     for (const bool as_one : {true, false}) {
         Tracked tracked(moving, as_one, make(), front(), {.form = form()}, build());
         tracked.expect_pairs_at(moving.moved(0, 0));
@@ -156,10 +152,8 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
     std::vector<Point> points = moving.mesh.points;
     Input input = uploaded(points, moving.mesh.faces);
     const BuilderChoice builder{.name = "oibvh-multi"};
-    ColliderChoice front, leaf;
-    front.name = "front";
-    leaf.name = "leaf";
-    Pipeline tracking(session(), builder, front, input), walking(session(), builder, leaf, input);
+    Pipeline tracking(session(), builder, {.name = "front"}, input),
+        walking(session(), builder, {.name = "leaf"}, input);
     for (int frame = 0; frame < 6; ++frame) {
         points = moving.moved(0.02f, frame);
         for (Pipeline* one : {&tracking, &walking})

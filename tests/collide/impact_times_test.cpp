@@ -2,8 +2,6 @@
 //
 // When the oracle between two frames says that features touch first: by hand, and on random lattices, where degenerate motions are common,
 // against algebraic numbers alone and against the oracle of one moment.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -6,16 +6,13 @@
 namespace bvhbench {
 namespace {
 
+/// Small frames of GPUs do without the rule `near` unless it is forced.
 ColliderChoice between(const char* name, unsigned rules_off = 0)
 {
-    ColliderChoice choice;
-    choice.name = name;
-    choice.among = Among::between_objects;
-    choice.keep_adjacent = false;
-    choice.narrow = "exact";
-    choice.rules_off = rules_off;
-    choice.rules_forced = skip_near & ~rules_off;  // small frames of GPUs do without it
-    return choice;
+    return {{.among = Among::between_objects, .keep_adjacent = false, .rules_off = rules_off},
+            name,
+            "exact",
+            skip_near & ~rules_off};
 }
 
 bool has_stage(const std::vector<StageTime>& stages, std::string_view name)

@@ -181,11 +181,9 @@ TEST(Margin, FindsWhatComesFromEachSideAfterRest)
             (side < 2 ? p.x : side < 4 ? p.y : p.z) += far;
         }
         Input input = uploaded(many);
-        ColliderChoice asked;
-        asked.name = "group";
-        asked.form = k < 6 ? KernelForm::groups : KernelForm::chunks;
-        Pipeline pipeline(session(), {.name = "oibvh-multi"}, with_rules(asked, skip_margin),
-                          input);
+        const KernelForm form = k < 6 ? KernelForm::groups : KernelForm::chunks;
+        Pipeline pipeline(session(), {.name = "oibvh-multi"},
+                          with_rules({{.form = form}, "group"}, skip_margin), input);
         for (int frame = 0; frame < 4; ++frame) {
             go_to(frame < 3 ? many.mesh.points : together, pipeline, input);
             EXPECT_EQ(pipeline.pairs().size(), frame < 3 ? 0u : 1u);
@@ -199,12 +197,8 @@ class ToContacts {
 public:
     ToContacts(const ManyObjects& many, KernelForm form) : input_(uploaded(many))
     {
-        ColliderChoice asked;
-        asked.name = "group";
-        asked.form = form;
-        asked.narrow = "exact";
         pipeline_.emplace(session(), BuilderChoice{.name = "oibvh-multi"},
-                          with_rules(asked, skip_margin), input_);
+                          with_rules({{.form = form}, "group", "exact"}, skip_margin), input_);
     }
 
     /// Expects the answers of oracles in a frame with these points, each time that it is sampled. Returns its counters.
