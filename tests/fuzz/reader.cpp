@@ -94,8 +94,8 @@ void make_scene(FileMesh file)
     write(folder / "files/f2.obj", bytes.substr(std::min(end + 2, bytes.size())));
     write(folder / "frames/mesh.ply",
           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
-          "float "
-          "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 "
+          "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+          "0\n0 "
           "1 0\n3 0 1 2\n");
     write(folder / "frames/frames.f32", bytes);
     SceneLibrary library;

@@ -94,8 +94,7 @@ TEST(HostMemory, IsRefusedWithWhatIsNeededAndGiven)
     const std::string message =
         refusal_of([] { require_host_memory("too much", std::uint64_t{1} << 60); });
     EXPECT_TRUE(message.starts_with(
-        "out of host memory: too much takes about 1152921504606846976 bytes, and "
-        "the host gives "))
+        "out of host memory: too much takes about 1152921504606846976 bytes, and the host gives "))
         << message;
 }
 

@@ -6,9 +6,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "helpers.h"
+#include "kinds.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/derived.h"
 
@@ -72,11 +72,6 @@ std::string number(double x, int digits = 17)
     return text;
 }
 
-std::string words(const WidePoint& p)
-{
-    return number(p.x) + ' ' + number(p.y) + ' ' + number(p.z);
-}
-
 template <class T>
 std::string ply_of(const std::vector<WidePoint>& points, const char* type)
 {
@@ -102,36 +97,21 @@ std::string ply_of(const std::vector<WidePoint>& points, const char* type)
     return ply;
 }
 
-/// Returns a line of text for each vertex and each triangle; vertex indices start at `first`.
-std::string lines_of(const std::vector<WidePoint>& points, const std::string& vertex,
-                     const std::string& face, std::size_t first)
+/// Writes the triangles as text of each of three formats and returns the files' paths.
+std::vector<std::string> text_files(const Folder& folder, const std::vector<WidePoint>& points)
 {
-    std::string lines;
+    Model::Part part;
     for (const WidePoint& p : points)
-        lines += vertex + words(p) + '\n';
-    for (std::size_t k = first; k < points.size() + first; k += 3)
-        lines += face + std::to_string(k) + ' ' + std::to_string(k + 1) + ' ' +
-                 std::to_string(k + 2) + '\n';
-    return lines;
-}
-
-std::string obj_of(const std::vector<WidePoint>& points) { return lines_of(points, "v ", "f ", 1); }
-
-std::string off_of(const std::vector<WidePoint>& points)
-{
-    return "OFF\n" + std::to_string(points.size()) + ' ' + std::to_string(triangles) + " 0\n" +
-           lines_of(points, "", "3 ", 0);
-}
-
-std::string stl_of(const std::vector<WidePoint>& points)
-{
-    std::string stl = "solid s\n";
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        stl += k % 3 == 0 ? "facet normal 0 0 0\nouter loop\n" : "";
-        stl += "vertex " + words(points[k]) + '\n';
-        stl += k % 3 == 2 ? "endloop\nendfacet\n" : "";
+        part.points.push_back({p.x, p.y, p.z});
+    for (unsigned k = 0; k < points.size(); k += 3)
+        part.faces.push_back({k, k + 1, k + 2});
+    Chance plain{.is_plain = true};
+    std::vector<std::string> paths;
+    for (const std::string name : {"plain.obj", "plain.off", "plain.stl"}) {
+        const auto kind = std::ranges::find(kinds(), name, &Kind::name);
+        paths.push_back(folder.file(name, kind->write({{part}}, plain)));
     }
-    return stl + "endsolid s\n";
+    return paths;
 }
 
 TEST(Doubles, AreSeenWhereDigitsSayMoreThanAFloatDoes)
@@ -160,9 +140,10 @@ TEST(Doubles, AreSeenWhereDigitsSayMoreThanAFloatDoes)
     }
 }
 
-TEST(Doubles, OfFloatsAreLeftAlone)
+using DoublesInFiles = InFolder;
+
+TEST_F(DoublesInFiles, OfFloatsAreLeftAlone)
 {
-    const Folder folder;
     std::vector<WidePoint> points = soup_at(far_off);
     for (WidePoint& p : points)
         p = {rounded(p.x), rounded(p.y), rounded(p.z)};
@@ -174,16 +155,13 @@ TEST(Doubles, OfFloatsAreLeftAlone)
         EXPECT_EQ(scene.content_hash, narrow.content_hash) << path;
     };
     same(folder.file("d.ply", ply_of<double>(points, "double")));
-    same(folder.file("a.obj", obj_of(points)));
-    same(folder.file("a.off", off_of(points)));
-    same(folder.file("a.stl", stl_of(points)));
+    std::ranges::for_each(text_files(folder, points), same);
     EXPECT_EQ(library.told.find("doubles"), library.told.npos) << library.told;
     EXPECT_TRUE(contains(library.told, "floats are 0.5 apart at its largest coordinate"));
 }
 
-TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
+TEST_F(DoublesInFiles, FarOffAreRecentredSoThatTheSamePairsOverlap)
 {
-    const Folder folder;
     const std::vector<WidePoint> points = soup_at(far_off);
     const auto right = pairs_of(points);
     ASSERT_GT(right.size(), 50u);
@@ -203,15 +181,13 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
         EXPECT_LE(std::fabs(scene.rounding.offset.x + scene.frames[0][k].x - points[k].x),
                   scene.rounding.largest_error);
     // All text formats give the same result.
-    for (const std::string& path :
-         {folder.file("a.obj", obj_of(points)), folder.file("a.off", off_of(points)),
-          folder.file("a.stl", stl_of(points))}) {
+    for (const std::string& path : text_files(folder, points)) {
         const Scene text = load_scene(path, {});
         EXPECT_EQ(text.content_hash, scene.content_hash) << path;
         EXPECT_EQ(text.rounding.largest_error, scene.rounding.largest_error) << path;
     }
     library.doubles = Doubles::as_is;
-    const Scene as_is = load_scene((folder.path() / "d.ply").string(), library);
+    const Scene as_is = load_scene(path() + "/d.ply", library);
     EXPECT_EQ(as_is.rounding.how, Doubles::as_is);
     EXPECT_EQ(as_is.rounding.offset.x, 0);
     EXPECT_GT(as_is.rounding.largest_error, 0.1);  // floats are half a unit apart at this distance
@@ -222,13 +198,12 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
     EXPECT_TRUE(contains(library.told, "at most 0.3: doubles, as floats; "));
 }
 
-TEST(Doubles, BeyondTheFloatsAreScaledByAPowerOfTwo)
+TEST_F(DoublesInFiles, BeyondTheFloatsAreScaledByAPowerOfTwo)
 {
-    const Folder folder;
     for (const double scale : {0x1p900, 0x1p-900, 0x1p-120, 0x1p127}) {
         SCOPED_TRACE(scale);
         const std::vector<WidePoint> points = soup_at({0, 0, 0}, scale);
-        const Scene scene = load_scene(folder.file("d.ply", ply_of<double>(points, "double")), {});
+        const Scene scene = loaded("d.ply", ply_of<double>(points, "double"));
         EXPECT_EQ(pairs_of(scene.frames[0]), pairs_of(points));
         EXPECT_NE(scene.rounding.scale_log2, 0);
         EXPECT_LT(scene.rounding.largest_error, 1e-6 * scale);
@@ -242,16 +217,15 @@ TEST(Doubles, BeyondTheFloatsAreScaledByAPowerOfTwo)
 }
 
 /// What is at rest in all frames remains so, although one of the files alone would not be changed.
-TEST(Doubles, OfASequenceShareOneOffset)
+TEST_F(DoublesInFiles, OfASequenceShareOneOffset)
 {
-    const Folder folder;
     const std::string faces = "f 1 2 3\nf 4 5 6\n",
                       still = "v 12.1 7.3 1\nv 13.1 7.3 1\nv 12.1 8.3 1\n";
     folder.file("a0.obj", still + "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces);
     folder.file("a1.obj",
                 still + "v 3000000.25 0 0\nv 3000001.3125 0 0\nv 3000000.1234567 1 0\n" + faces);
-    EXPECT_FALSE(load_scene((folder.path() / "a0.obj").string(), {}).rounding.how);
-    const Scene scene = load_scene(folder.path().string(), {});
+    EXPECT_FALSE(load_scene(path() + "/a0.obj", {}).rounding.how);
+    const Scene scene = load_scene(path(), {});
     EXPECT_EQ(scene.rounding.how, Doubles::recentred);
     EXPECT_NEAR(scene.rounding.offset.x, 1500000.65, 0.01);
     ASSERT_EQ(scene.frames.size(), 2u);
@@ -259,9 +233,8 @@ TEST(Doubles, OfASequenceShareOneOffset)
     EXPECT_EQ(scene.frames[0][0].x, static_cast<float>(12.1 - scene.rounding.offset.x));
 }
 
-TEST(Doubles, KeptForStepsAreMovedExactlyAndLostByNoChange)
+TEST_F(DoublesInFiles, KeptForStepsAreMovedExactlyAndLostByNoChange)
 {
-    const Folder folder;
     std::vector<WidePoint> points = soup_at(far_off);
     points[1] = points[0];
     const std::string alone = folder.file("a0.ply", ply_of<double>(points, "double"));
@@ -270,7 +243,7 @@ TEST(Doubles, KeptForStepsAreMovedExactlyAndLostByNoChange)
     folder.file("a1.ply", ply_of<double>(points, "double"));
     Listening library;
     library.doubles = Doubles::kept;
-    const Scene scene = load_scene(folder.path().string(), library);
+    const Scene scene = load_scene(path(), library);
     EXPECT_TRUE(contains(library.told, ", and kept for steps between frames"));
     ASSERT_EQ(scene.wide.size(), 2u);
     const WidePoint by = scene.rounding.offset;
@@ -282,12 +255,12 @@ TEST(Doubles, KeptForStepsAreMovedExactlyAndLostByNoChange)
     }
     points[0].x = std::nextafter(points[0].x, 0);
     folder.file("a1.ply", ply_of<double>(points, "double"));
-    const Scene other = load_scene(folder.path().string(), library);
+    const Scene other = load_scene(path(), library);
     EXPECT_EQ(scene.frames[1][0].x, other.frames[1][0].x);
     EXPECT_NE(scene.content_hash, other.content_hash);
     points[0].x = 0.1;  // now no offset is exact
     folder.file("a1.ply", ply_of<double>(points, "double"));
-    EXPECT_EQ(load_scene(folder.path().string(), library).rounding.offset.x, 0);
+    EXPECT_EQ(load_scene(path(), library).rounding.offset.x, 0);
 
     const std::string why = "has doubles that cannot be kept";
     for (const std::string& name :

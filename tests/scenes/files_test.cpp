@@ -181,8 +181,7 @@ const Bad bad_files[] = {
     {"strips.ply",
      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
      "z\nelement tristrips 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 "
-     "1 "
-     "0\n3 0 1 3\n",
+     "1 0\n3 0 1 3\n",
      "tristrips 0 of 1: it names vertex 3 of 3"},
     {"old.gltf", R"({"asset": {"version": "1.0"}})", "is of glTF version '1.0', and version 2"},
     {"torn.gltf", R"({"asset": {)", "its JSON is damaged"},
@@ -234,8 +233,7 @@ const Bad bad_files[] = {
     {"below.dae", "<COLLADA><p>0 1 -1</p></COLLADA>", "names a vertex below 0"},
     {"array.dae",
      "<COLLADA><float_array id=\"a\" count=\"12\">0</float_array><accessor source=\"#a\" "
-     "count=\"4\" "
-     "stride=\"4\"/></COLLADA>",
+     "count=\"4\" stride=\"4\"/></COLLADA>",
      "an accessor of 4 elements beyond the end of its array of 12 numbers"},
     {"parts.3mf",
      "PK\1\2" + std::string(24, 'x') + std::string("\7\0", 2) + std::string(16, 'x') + "a.model" +

@@ -3,7 +3,6 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 namespace bvhbench {
 namespace {
@@ -13,7 +12,7 @@ using Json = nlohmann::json;
 std::string text_of(double x)
 {
     char text[40];
-    std::snprintf(text, sizeof text, "%.10g", x);
+    std::snprintf(text, sizeof text, "%.17g", x);
     return text;
 }
 
