@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The library leaves the caller's queue of any kind, memory, OpenCL objects and environment as they were.
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <thread>
 
 #include "tests/library/testing.h"
 

@@ -6,7 +6,6 @@
 //
 // BVHBENCH_FAULTS=calls fails every call, alone and with all calls after it. The default tries every 160th call path.
 #include <optional>
-#include <set>
 
 #include "tests/faults/opencl_shim.h"
 #include "tests/library/testing.h"

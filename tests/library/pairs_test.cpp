@@ -72,11 +72,6 @@ TEST_F(LibraryPairs, GetRoomWhenTheyAreMore)
     }
 }
 
-constexpr std::pair<oibvh::Among, Among> amongs[] = {
-    {oibvh::Among::all, Among::all},
-    {oibvh::Among::between_objects, Among::between_objects},
-    {oibvh::Among::within_objects, Among::within_objects}};
-
 void expect_right(oibvh::Tree& tree, const Caller& caller, const ThreeObjects& objects,
                   const std::string& what)
 {
@@ -172,7 +167,7 @@ TEST_F(LibraryPairs, HaveAFirstContactIfTrianglesIntersect)
     EXPECT_THROW(tree.first_contact(), oibvh::BadInput);
     const std::vector<oibvh::Box> boxes = soup_mesh(9).boxes();
     tree.build(oibvh::HostBoxes{boxes});
-    EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.first_contact(); }),
+    EXPECT_EQ(refusal_of<oibvh::BadInput>([&] { tree.first_contact(); }),
               "boxes have overlaps but no contacts: those are of triangles");
 }
 

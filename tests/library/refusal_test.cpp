@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Invalid arguments are refused with one sentence that names the argument and what is allowed, and the tree stays usable.
-#include <cmath>
 #include <limits>
 
 #include "tests/library/testing.h"
@@ -21,7 +20,7 @@ protected:
     /// Returns the message of the BadInput that a build over `input` throws. Expects the next build, over valid input, to work.
     std::string refusal(const oibvh::Input& input, const Sizes& objects = {})
     {
-        std::string why = sentence<BadInput>([&] { tree.build(input, objects); });
+        std::string why = refusal_of<BadInput>([&] { tree.build(input, objects); });
         EXPECT_FALSE(tree.is_built());
         EXPECT_THROW(tree.find_pairs(), BadInput);
         expect_built();
@@ -36,12 +35,12 @@ protected:
 
     std::string option_refusal(const oibvh::Options& options)
     {
-        return sentence<BadInput>([&] { oibvh::Tree(device, options); });
+        return refusal_of<BadInput>([&] { oibvh::Tree(device, options); });
     }
 
     std::string tuning_refusal(const char* name, unsigned value)
     {
-        return sentence<BadInput>([&] {
+        return refusal_of<BadInput>([&] {
             oibvh::Device(caller.queue, {.tuning = {{name, value}}});
         });
     }
@@ -156,26 +155,27 @@ TEST_F(LibraryRefuses, CallsOutOfTurn)
     const auto without = [](const char* what) {
         return std::string(what) + " needs a tree, and none was built, or its build failed";
     };
-    EXPECT_EQ(sentence<BadInput>([&] { tree.find_pairs(); }), without("a query"));
-    EXPECT_EQ(sentence<BadInput>([&] { tree.refit(mesh.on_host()); }), without("a refit"));
-    EXPECT_EQ(sentence<BadInput>([&] { tree.buffers(); }), without("buffers"));
-    EXPECT_EQ(sentence<BadInput>([&] { tree.levels(); }), without("levels"));
-    EXPECT_EQ(sentence<BadInput>([&] { tree.read(); }), without("reading"));
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.find_pairs(); }), without("a query"));
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.refit(mesh.on_host()); }), without("a refit"));
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.buffers(); }), without("buffers"));
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.levels(); }), without("levels"));
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.read(); }), without("reading"));
     for (int time = 0; time < 2; ++time) {
         tree.build(mesh.on_host());
-        EXPECT_EQ(sentence<BadInput>([&] { tree.read_pairs(); }),
+        EXPECT_EQ(refusal_of<BadInput>([&] { tree.read_pairs(); }),
                   "there are no pairs to read: nothing was queried since the last build");
         tree.find_pairs();
     }
-    EXPECT_EQ(sentence<BadInput>([&] { tree.find_pairs(other); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.find_pairs(other); }),
               "a query between trees wants both of one Device");
-    EXPECT_EQ(sentence<BadInput>([&] { tree.find_pairs(unbuilt); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.find_pairs(unbuilt); }),
               without("a query between trees"));
-    EXPECT_EQ(sentence<BadInput>([&] { tree.levels(1); }), "there is no object 1, and there are 1");
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.levels(1); }),
+              "there is no object 1, and there are 1");
     const oibvh::Update two[] = {oibvh::Update::keep, oibvh::Update::keep};
-    EXPECT_EQ(sentence<BadInput>([&] { tree.update(mesh.on_host(), two); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.update(mesh.on_host(), two); }),
               "there are 2 updates, and 1 objects");
-    EXPECT_EQ(sentence<BadInput>([&] { tree.refit(more.on_host()); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.refit(more.on_host()); }),
               "the objects' sizes come to 300, and there are 301 triangles or boxes");
     EXPECT_FALSE(tree.is_built());
 }
@@ -187,9 +187,9 @@ TEST_F(LibraryRefuses, TreesThatCannotBeHeldAgainstEachOther)
     unsorted.build(mesh.on_host());
     of_two.build(mesh.on_host(), Sizes{150, 150});
     EXPECT_EQ(
-        sentence<BadInput>([&] { tree.find_pairs(unsorted); }),
+        refusal_of<BadInput>([&] { tree.find_pairs(unsorted); }),
         "a query between trees wants both with sorted_leaves or both without, and one has it");
-    EXPECT_EQ(sentence<BadInput>([&] { tree.find_pairs(of_two); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.find_pairs(of_two); }),
               "a query between trees wants trees of one object each, and one has 2");
 }
 
@@ -199,7 +199,7 @@ TEST_F(LibraryRefuses, FiltersOfOtherObjects)
     const std::vector<oibvh::Excluded> excluded = {{0, 1}, {2, 0}};
     tree.build(mesh.on_host(), sizes);
     const auto why = [&](const oibvh::Filter& filter) {
-        return sentence<BadInput>([&] { tree.find_pairs(oibvh::Among::all, filter); });
+        return refusal_of<BadInput>([&] { tree.find_pairs(oibvh::Among::all, filter); });
     };
     EXPECT_EQ(why({.excluded = excluded}), "a filter excludes object 2, and there are 2 objects");
     EXPECT_EQ(why({.groups = groups}), "a filter has 1 groups, and there are 2 objects");
@@ -213,12 +213,12 @@ TEST_F(LibraryRefuses, NumbersThatNameNothingToChoose)
     tree.find_pairs();
     const std::vector<oibvh::Pair> before = tree.read_pairs();
     for (const int other : {-1, 3, 99})
-        EXPECT_EQ(sentence<BadInput>([&] { tree.find_pairs(static_cast<oibvh::Among>(other)); }),
+        EXPECT_EQ(refusal_of<BadInput>([&] { tree.find_pairs(static_cast<oibvh::Among>(other)); }),
                   "a query is among all, between_objects or within_objects, not " +
                       std::to_string(other));
     EXPECT_EQ(tree.read_pairs(), before);
     const oibvh::Update updates[] = {static_cast<oibvh::Update>(77)};
-    EXPECT_EQ(sentence<BadInput>([&] { tree.update(mesh.on_host(), updates); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.update(mesh.on_host(), updates); }),
               "an update is rebuild, refit or keep, not 77");
     EXPECT_TRUE(tree.is_built());
     EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh));
@@ -232,7 +232,7 @@ TEST_F(LibraryRefuses, OptionsQueuesAndTuningThatThereAreNot)
               "no collider of the library is called 'grid'; there are: leaf, group, block, bvtt");
     EXPECT_EQ(option_refusal({.order = "peano"}).substr(0, 46),
               "no order is called 'peano'; there are: morton3");
-    EXPECT_EQ(sentence<BadInput>([] { oibvh::Device nowhere(nullptr); }),
+    EXPECT_EQ(refusal_of<BadInput>([] { oibvh::Device nowhere(nullptr); }),
               "a Device wants a cl_command_queue, and it is null");
     EXPECT_EQ(tuning_refusal("sort.luck", 1),
               "no tuning parameter is called 'sort.luck'; `bvhbench list tuning` has them");
@@ -247,7 +247,7 @@ TEST_F(LibraryRefuses, WhatMemoryDoesNotHold)
 {
     tree = oibvh::Tree(oibvh::Device(caller.queue, {.memory_limit = 100000}));
     const std::string why =
-        sentence<oibvh::Unavailable>([&] { tree.build(soup_mesh(5000).on_host()); });
+        refusal_of<oibvh::Unavailable>([&] { tree.build(soup_mesh(5000).on_host()); });
     EXPECT_EQ(why.substr(0, 22), "out of device memory: ");
     EXPECT_NE(why.find("gives 100000"), std::string::npos) << why;
     expect_built();

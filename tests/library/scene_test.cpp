@@ -18,21 +18,8 @@ class LibraryScene : public OfACaller {
 protected:
     LibraryScene()
     {
-        std::size_t first = 0;
-        for (const FaceRange range : objects.ranges()) {
-            LibraryMesh own;
-            for (std::size_t k = 3 * range.first; k < 3 * (std::size_t{range.first} + range.count);
-                 ++k)
-                own.points.push_back(objects.mesh.points[k]);
-            for (std::size_t k = 0; k < range.count; ++k) {
-                const oibvh::Face face = objects.mesh.faces[range.first + k];
-                const auto shift = static_cast<std::uint32_t>(first);
-                own.faces.push_back({face.a - shift, face.b - shift, face.c - shift});
-            }
-            first += own.points.size();
-            EXPECT_EQ(scene.add(own.on_host()), parts.size());
-            parts.push_back(own);
-        }
+        for (std::uint32_t k = 0; k < parts.size(); ++k)
+            EXPECT_EQ(scene.add(parts[k].on_host()), k);
     }
 
     /// Expects pairs and contacts to be those of `objects`, between objects and in all.
@@ -62,7 +49,7 @@ protected:
     static constexpr oibvh::Pose turned = {
         {0.6f, -0.8f, 0, 0.3f}, {0.8f, 0.6f, 0, -0.1f}, {0, 0, 1, 0.125f}};
     ThreeObjects objects;
-    std::vector<LibraryMesh> parts;
+    std::vector<LibraryMesh> parts = objects.parts;
     oibvh::Scene scene{device};
 };
 
@@ -133,24 +120,24 @@ TEST_F(LibraryScene, RefusesWhatItCannotDoAndStaysAsItWas)
     LibraryMesh wrong = parts[0];
     wrong.faces[0].b = 3;
     expect_right();
-    EXPECT_EQ(sentence<BadInput>([&] { oibvh::Scene(device).tree(); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { oibvh::Scene(device).tree(); }),
               "there are no triangles, and a tree has a leaf at least");
-    EXPECT_EQ(sentence<BadInput>([&] { scene.add(wrong.on_host()); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { scene.add(wrong.on_host()); }),
               "triangle 0 names point 3, and there are 3");
-    EXPECT_EQ(sentence<BadInput>([&] { scene.add({}); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { scene.add({}); }),
               "there are no triangles, and a tree has a leaf at least");
-    EXPECT_EQ(sentence<BadInput>([&] { scene.move(1, few); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { scene.move(1, few); }),
               "object 1 has 900 points, and 2 are given");
-    EXPECT_EQ(sentence<BadInput>([&] { scene.move(1, bad); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { scene.move(1, bad); }),
               "point 0 is not finite: (0.000000, nan, 0.000000)");
-    EXPECT_EQ(sentence<BadInput>([&] { scene.place(3, {}); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { scene.place(3, {}); }),
               "there is no object 3, and there are 3");
     for (const float value : {NAN, INFINITY, 3e38f})
-        EXPECT_EQ(sentence<BadInput>([&] {
+        EXPECT_EQ(refusal_of<BadInput>([&] {
                       scene.place(1, {.y = {0, value, 0, value}});
                   }),
                   "a pose puts points where floats are not finite");
-    EXPECT_EQ(sentence<BadInput>([&] { scene.origin(378); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { scene.origin(378); }),
               "there is no triangle 378, and there are 378");
     expect_right();
 }
@@ -171,7 +158,7 @@ TEST_F(LibraryScene, HasTheContactsOfEveryColliderWithAndWithoutNeighbours)
         }
     oibvh::Tree tree(device);
     tree.build(oibvh::HostBoxes{objects.mesh.boxes()});
-    EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.find_contacts(); }),
+    EXPECT_EQ(refusal_of<oibvh::BadInput>([&] { tree.find_contacts(); }),
               "boxes have overlaps but no contacts: those are of triangles");
 }
 

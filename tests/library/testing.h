@@ -3,8 +3,6 @@
 // Shared by the tests of the library: a caller with its own OpenCL objects, test meshes, and their pairs by the sweep oracle.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,9 +14,9 @@
 #include "collide/oracles/box_pairs.h"
 #include "collide/pairs.h"
 #include "device/device.h"
-#include "geometry/error.h"
 #include "library/include/bvhbench/oibvh.h"
 #include "scenes/catalog.h"
+#include "tests/refusal.h"
 
 namespace bvhbench {
 
@@ -182,15 +180,22 @@ inline PairList swept_pairs(const LibraryMesh& mesh, bool keep_adjacent = true)
     return touching_pairs(own.points, own.faces, keep_adjacent);
 }
 
+/// What a query is asked for, in the types of the library and of the oracle.
+inline constexpr std::pair<oibvh::Among, Among> amongs[] = {
+    {oibvh::Among::all, Among::all},
+    {oibvh::Among::between_objects, Among::between_objects},
+    {oibvh::Among::within_objects, Among::within_objects}};
+
 /// Three overlapping triangle soups of 1, 300 and 77 triangles.
 struct ThreeObjects {
     std::vector<std::uint32_t> sizes = {1, 300, 77};
+    std::vector<LibraryMesh> parts;  ///< each alone
     LibraryMesh mesh;
 
     ThreeObjects()
     {
         for (const std::uint32_t size : sizes) {
-            const LibraryMesh own = soup_mesh(size, size);
+            const LibraryMesh& own = parts.emplace_back(soup_mesh(size, size));
             for (const oibvh::Face face : own.faces) {
                 const auto shift = static_cast<std::uint32_t>(mesh.points.size());
                 mesh.faces.push_back({face.a + shift, face.b + shift, face.c + shift});
@@ -231,21 +236,5 @@ protected:
     Caller caller;
     oibvh::Device device{caller.queue};
 };
-
-/// Returns the message of the `E` that `work` throws. Adds a test failure if `work` throws another exception or none.
-template <class E, class Work>
-std::string sentence(Work&& work)
-{
-    try {
-        work();
-    } catch (const E& error) {
-        return error.what();
-    } catch (const std::exception& error) {
-        ADD_FAILURE() << "another error: " << error.what();
-        return {};
-    }
-    ADD_FAILURE() << "no error";
-    return {};
-}
 
 }  // namespace bvhbench

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The library's trees equal those of bvhbench's builders bit for bit, and its buffers have the documented layout.
-#include <cstring>
 
-#include "builders/host_tree.h"
 #include "builders/implicit/tree.h"
 #include "oibvh/oibvh.h"
 #include "tests/builders/stage_testing.h"

@@ -77,9 +77,7 @@ TEST_F(LibraryWithin, ObjectsAreToldApartAndFiltered)
     oibvh::Tree tree(device);
     tree.build(objects.mesh.on_host(), objects.sizes);
     const PairList all = each_within(objects.mesh, 0.1);
-    for (const auto& [asked, among] : {std::pair(oibvh::Among::all, Among::all),
-                                       {oibvh::Among::between_objects, Among::between_objects},
-                                       {oibvh::Among::within_objects, Among::within_objects}}) {
+    for (const auto& [asked, among] : amongs) {
         const PairList wanted = among_objects(all, objects.ranges(), among);
         EXPECT_EQ(found(tree, 0.1, asked), wanted);
         const PairList less =
@@ -149,20 +147,20 @@ TEST_F(LibraryWithin, AreDecidedByTheHostWhereDoublesAreInDoubt)
 TEST_F(LibraryWithin, AreRefusedInOneSentence)
 {
     oibvh::Tree tree(device);
-    EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.find_within(1); }),
+    EXPECT_EQ(refusal_of<oibvh::BadInput>([&] { tree.find_within(1); }),
               "a query needs a tree, and none was built, or its build failed");
     const LibraryMesh mesh = soup_mesh(90);
     tree.build(mesh.on_host());
     const PairList before = found_pairs(tree, caller);
     for (const double wrong : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-        EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.find_within(wrong); }),
+        EXPECT_EQ(refusal_of<oibvh::BadInput>([&] { tree.find_within(wrong); }),
                   "a distance is a finite number that is not negative");
     EXPECT_THROW(tree.find_within(1, static_cast<oibvh::Among>(7)), oibvh::BadInput);
     EXPECT_EQ(pair_list(tree.read_pairs()), before) << "as they were";
     EXPECT_EQ(found(tree, 0.1), each_within(mesh, 0.1));
     const std::vector<oibvh::Box> boxes = mesh.boxes();
     tree.build(oibvh::HostBoxes{boxes});
-    EXPECT_EQ(sentence<oibvh::BadInput>([&] { tree.find_within(1); }),
+    EXPECT_EQ(refusal_of<oibvh::BadInput>([&] { tree.find_within(1); }),
               "boxes have overlaps but no distances: those are of triangles");
 }
 

@@ -26,7 +26,7 @@ protected:
     std::string refusal(const OwnTriangles& bad)
     {
         const std::string why =
-            sentence<BadInput>([&] { tree.distribute((is_last() ? bad : own).view()); });
+            refusal_of<BadInput>([&] { tree.distribute((is_last() ? bad : own).view()); });
         expect_scene();
         return why;
     }
@@ -81,9 +81,9 @@ TEST_F(ClusterLibraryRefuses, ANumberOfTwoTriangles)
 TEST_F(ClusterLibraryRefuses, ASceneWithoutTriangles)
 {
     const std::string why = "there are no triangles, and a tree has a leaf at least";
-    EXPECT_EQ(sentence<BadInput>([&] { tree.distribute(oibvh::RankTriangles{}); }), why);
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.distribute(oibvh::RankTriangles{}); }), why);
     EXPECT_TRUE(
-        sentence<BadInput>([&] { tree.distribute(oibvh::HostTriangles{}, 0); }).ends_with(why));
+        refusal_of<BadInput>([&] { tree.distribute(oibvh::HostTriangles{}, 0); }).ends_with(why));
     expect_scene();
 }
 
@@ -91,11 +91,11 @@ TEST_F(ClusterLibraryRefuses, ARootThatIsNotThereOrNotTheSame)
 {
     const int count = tree.ranks();
     EXPECT_EQ(
-        sentence<BadInput>([&] { tree.distribute(mesh.on_host(), count); }),
+        refusal_of<BadInput>([&] { tree.distribute(mesh.on_host(), count); }),
         "there is no rank " + std::to_string(count) + ", and there are " + std::to_string(count));
     EXPECT_THROW(tree.distribute(mesh.on_host(), -1), BadInput);
     if (count > 1) {
-        EXPECT_EQ(sentence<BadInput>([&] { tree.distribute(mesh.on_host(), is_last() ? 1 : 0); }),
+        EXPECT_EQ(refusal_of<BadInput>([&] { tree.distribute(mesh.on_host(), is_last() ? 1 : 0); }),
                   "`root` must be the same on all ranks, and is 0 on rank 0 and 1 on rank " +
                       std::to_string(count - 1));
     }
@@ -106,12 +106,12 @@ TEST_F(ClusterLibraryRefuses, PointsOfAnUpdate)
 {
     std::vector<oibvh::Point> bad = own.points;
     bad[2].z = INFINITY;
-    EXPECT_TRUE(sentence<BadInput>([&] {
+    EXPECT_TRUE(refusal_of<BadInput>([&] {
                     tree.update(is_last() ? bad : own.points);
                 }).starts_with(of_last("point 2 is not finite: (")));
     bad = own.points;
     bad.pop_back();
-    EXPECT_TRUE(sentence<BadInput>([&] {
+    EXPECT_TRUE(refusal_of<BadInput>([&] {
                     tree.update(is_last() ? bad : own.points);
                 }).starts_with(of_last("there are ")));
     expect_scene();
@@ -123,29 +123,30 @@ TEST_F(ClusterLibraryRefuses, CallsBeforeTheirTime)
     const std::string no_scene = " needs a scene, and none was distributed, or a call failed since",
                       no_frame =
                           " needs pairs, and there was no frame since the triangles last changed";
-    EXPECT_EQ(sentence<BadInput>([&] { empty.find_pairs(); }), "a frame" + no_scene);
-    EXPECT_EQ(sentence<BadInput>([&] { empty.update({}); }), "an update" + no_scene);
-    EXPECT_EQ(sentence<BadInput>([&] { empty.read_pairs(); }), "reading pairs" + no_scene);
-    EXPECT_EQ(sentence<BadInput>([&] { empty.triangles(); }), "the list of triangles" + no_scene);
-    EXPECT_EQ(sentence<BadInput>([&] { tree.read_pairs(); }), "reading pairs" + no_frame);
-    EXPECT_EQ(sentence<BadInput>([&] { tree.gather_pairs(); }), "gathering pairs" + no_frame);
-    EXPECT_EQ(sentence<BadInput>([&] { tree.rebalance(); }), "a rebalance" + no_frame);
+    EXPECT_EQ(refusal_of<BadInput>([&] { empty.find_pairs(); }), "a frame" + no_scene);
+    EXPECT_EQ(refusal_of<BadInput>([&] { empty.update({}); }), "an update" + no_scene);
+    EXPECT_EQ(refusal_of<BadInput>([&] { empty.read_pairs(); }), "reading pairs" + no_scene);
+    EXPECT_EQ(refusal_of<BadInput>([&] { empty.triangles(); }), "the list of triangles" + no_scene);
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.read_pairs(); }), "reading pairs" + no_frame);
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.gather_pairs(); }), "gathering pairs" + no_frame);
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.rebalance(); }), "a rebalance" + no_frame);
     expect_scene();
     tree.update(own.points);
-    EXPECT_EQ(sentence<BadInput>([&] { tree.read_pairs(); }), "reading pairs" + no_frame);
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.read_pairs(); }), "reading pairs" + no_frame);
     tree.find_pairs();
-    EXPECT_EQ(sentence<BadInput>([&] { tree.gather_contacts(); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { tree.gather_contacts(); }),
               "there are no contacts to read, because `contacts` is off");
     empty.distribute(own.view());
     empty.find_pairs();
-    EXPECT_EQ(sentence<BadInput>([&] { empty.rebalance(); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { empty.rebalance(); }),
               "a rebalance cuts the scene by rcb, and its partition is curve");
 }
 
 TEST_F(ClusterLibraryRefuses, OptionsThatAreUnknownOrDiffer)
 {
     const auto refused = [&](const ClusterOptions& options) {
-        return sentence<BadInput>([&] { DistributedTree(MPI_COMM_WORLD, caller.queue, options); });
+        return refusal_of<BadInput>(
+            [&] { DistributedTree(MPI_COMM_WORLD, caller.queue, options); });
     };
     ClusterOptions options;
     options.tree.order = "hilbret30";
@@ -157,8 +158,7 @@ TEST_F(ClusterLibraryRefuses, OptionsThatAreUnknownOrDiffer)
         return;
     options = {.contacts = is_last()};
     EXPECT_EQ(refused(options),
-              "`contacts` must be the same on all ranks, and is 0 on rank 0 and "
-              "1 on rank " +
+              "`contacts` must be the same on all ranks, and is 0 on rank 0 and 1 on rank " +
                   std::to_string(ranks->count() - 1));
     options = {};
     if (is_last())
@@ -168,17 +168,17 @@ TEST_F(ClusterLibraryRefuses, OptionsThatAreUnknownOrDiffer)
 
 TEST_F(ClusterLibraryRefuses, QueuesAndCommunicatorsThatAreNone)
 {
-    EXPECT_EQ(sentence<BadInput>(
+    EXPECT_EQ(refusal_of<BadInput>(
                   [&] { DistributedTree(MPI_COMM_WORLD, is_last() ? nullptr : caller.queue); }),
               of_last("a Device wants a cl_command_queue, and it is null"));
-    EXPECT_EQ(sentence<BadInput>([&] { DistributedTree(MPI_COMM_NULL, caller.queue); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { DistributedTree(MPI_COMM_NULL, caller.queue); }),
               "a DistributedTree wants a communicator, and it is null");
     if (ranks->count() == 1)
         return;
     MPI_Comm half = MPI_COMM_NULL, both = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, ranks->rank() == 0 ? 0 : 1, 0, &half);
     MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, ranks->rank() == 0 ? 1 : 0, 0, &both);
-    EXPECT_EQ(sentence<BadInput>([&] { DistributedTree(both, caller.queue); }),
+    EXPECT_EQ(refusal_of<BadInput>([&] { DistributedTree(both, caller.queue); }),
               "a DistributedTree wants the communicator of one group, and this one is between two");
     MPI_Comm_free(&both);
     MPI_Comm_free(&half);
@@ -198,14 +198,14 @@ TEST_F(ClusterLibraryRefuses, TooLittleMemoryOfOneRankOnAllRanks)
         if (is_last())
             options.device.memory_limit = limit;
         DistributedTree limited(MPI_COMM_WORLD, caller.queue, options);
-        const auto why = sentence<oibvh::Unavailable>([&] {
+        const auto why = refusal_of<oibvh::Unavailable>([&] {
             limited.distribute((fails_in_frame ? more : own).view());
             if (!fails_in_frame)
                 ADD_FAILURE() << "memory sufficed";
             limited.find_pairs();
         });
         EXPECT_TRUE(ranks->count() == 1 || why.starts_with(of_last(""))) << why;
-        EXPECT_EQ(sentence<BadInput>([&] { limited.find_pairs(); }),
+        EXPECT_EQ(refusal_of<BadInput>([&] { limited.find_pairs(); }),
                   "a frame needs a scene, and none was distributed, or a call failed since");
         if (!fails_in_frame)
             return;
