@@ -33,6 +33,24 @@ protected:
     }
 };
 
+/// Tests of each collider of a library, by its name. Skipped without the library.
+class EachLibraryCollider : public testing::TestWithParam<const char*> {
+protected:
+    void SetUp() override
+    {
+        if (find_collider(GetParam()).make == nullptr)
+            GTEST_SKIP() << find_collider(GetParam()).absent;
+    }
+    static std::unique_ptr<Collider> made(Among among, unsigned rules_off = 0)
+    {
+        return make_collider(
+            {{.among = among, .keep_adjacent = false, .rules_off = rules_off}, GetParam()},
+            session().programs());
+    }
+};
+
+inline constexpr const char* library_colliders[] = {"embree", "embree-refit", "fcl", "fcl-refit"};
+
 /// Returns the points moved, so that other objects overlap than before.
 inline std::vector<Point> moved(std::vector<Point> points)
 {

@@ -8,22 +8,7 @@
 namespace bvhbench {
 namespace {
 
-class LibraryNear : public testing::TestWithParam<const char*> {
-protected:
-    void SetUp() override
-    {
-        const ColliderEntry& entry = find_collider(GetParam());
-        if (entry.make == nullptr)
-            GTEST_SKIP() << entry.absent;
-    }
-
-    static std::unique_ptr<Collider> made(Among among, unsigned rules_off)
-    {
-        return make_collider(
-            {{.among = among, .keep_adjacent = false, .rules_off = rules_off}, GetParam()},
-            session().programs());
-    }
-};
+using LibraryNear = EachLibraryCollider;
 
 /// Returns three objects in general position, of which the last lies `along` from the others.
 ManyObjects three(float along)
@@ -46,7 +31,7 @@ std::uint64_t trees_made(const Collider& collider)
 TEST_P(LibraryNear, LeavesOutObjectsThatMeetNoOtherAndFindsThemWhenTheyDo)
 {
     const ManyObjects apart = three(1000), together = three(0.02f);
-    const auto ruled = made(Among::between_objects, 0);
+    const auto ruled = made(Among::between_objects);
     const auto whole = made(Among::between_objects, skip_near);
     bool is_reserved = false;
     for (const ManyObjects* frame : {&apart, &together, &apart}) {
@@ -67,15 +52,14 @@ TEST_P(LibraryNear, MakesEveryTreeForPairsWithinObjects)
     const ManyObjects apart = three(1000);
     const Input input = uploaded(apart.mesh.points, apart.mesh.faces, apart.objects);
     for (const Among among : {Among::all, Among::within_objects}) {
-        const auto collider = made(among, 0);
+        const auto collider = made(among);
         collider->reserve(nullptr, input);
         found_by(*collider, input);
         EXPECT_EQ(trees_made(*collider), 3u);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Libraries, LibraryNear,
-                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"), CaseName());
+INSTANTIATE_TEST_SUITE_P(Libraries, LibraryNear, testing::ValuesIn(library_colliders), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -9,24 +9,17 @@ namespace bvhbench {
 namespace {
 
 /// A separate program counted pairs with exact arithmetic on two frames each of a cloth and of 305 balls.
-class LibraryReference : public testing::TestWithParam<const char*> {};
+using LibraryReference = EachLibraryCollider;
 
 TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
 {
-    const ColliderEntry& entry = find_collider(GetParam());
-    if (entry.make == nullptr)
-        GTEST_SKIP() << entry.absent;
     if (data_folder().empty())
         GTEST_SKIP() << no_data_sets;
     for (const char* name : {"unc_cloth_ball", "unc_nbody"}) {
         const std::filesystem::path folder = data_folder() / "dynamic" / name;
         const nlohmann::json meta = read_json(folder / "meta.json");
         const Scene scene = load_scene(folder.string(), {});
-        const auto whole =
-            make_collider({{.keep_adjacent = false}, GetParam()}, session().programs());
-        const auto between =
-            make_collider({{.among = Among::between_objects, .keep_adjacent = false}, GetParam()},
-                          session().programs());
+        const auto whole = made(Among::all), between = made(Among::between_objects);
         const std::string kind = whole->finds_contacts() ? "exact_" : "aabb_";
         for (std::size_t k = 0; k < scene.frames.size(); ++k) {
             SCOPED_TRACE(std::string(name) + ", frame " + std::to_string(k));
@@ -46,12 +39,12 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Libraries, LibraryReference,
-                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"), CaseName());
+INSTANTIATE_TEST_SUITE_P(Libraries, LibraryReference, testing::ValuesIn(library_colliders),
+                         CaseName());
 
 TEST(LibraryColliders, AreListedAndRefusedWhereTheyWereNotBuilt)
 {
-    for (const char* name : {"embree", "embree-refit", "fcl", "fcl-refit"}) {
+    for (const char* name : library_colliders) {
         const ColliderEntry& entry = find_collider(name);
         if (entry.make != nullptr) {
             EXPECT_EQ(

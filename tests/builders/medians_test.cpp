@@ -20,22 +20,17 @@ struct MedianCase {
     MedianShape shape;
 };
 
+constexpr KernelForm groups = KernelForm::groups, chunks = KernelForm::chunks;
 const MedianCase cases[] = {
-    {"blocks_groups", false, {.form = KernelForm::groups}},
-    {"blocks_groups_of_32_over_64",
-     false,
-     {.form = KernelForm::groups, .block_height = 6, .group_size = 32}},
-    {"blocks_groups_of_32_over_32",
-     false,
-     {.form = KernelForm::groups, .block_height = 5, .group_size = 32}},
-    {"blocks_chunks", false, {.form = KernelForm::chunks}},
-    {"blocks_chunks_over_64", false, {.form = KernelForm::chunks, .block_height = 6}},
-    {"cells_groups", true, {.form = KernelForm::groups}},
-    {"cells_groups_over_32",
-     true,
-     {.form = KernelForm::groups, .block_height = 5, .group_size = 32}},
-    {"cells_chunks", true, {.form = KernelForm::chunks}},
-    {"cells_chunks_over_32", true, {.form = KernelForm::chunks, .block_height = 5}},
+    {"blocks_groups", false, {.form = groups}},
+    {"blocks_groups_of_32_over_64", false, {.form = groups, .block_height = 6, .group_size = 32}},
+    {"blocks_groups_of_32_over_32", false, {.form = groups, .block_height = 5, .group_size = 32}},
+    {"blocks_chunks", false, {.form = chunks}},
+    {"blocks_chunks_over_64", false, {.form = chunks, .block_height = 6}},
+    {"cells_groups", true, {.form = groups}},
+    {"cells_groups_over_32", true, {.form = groups, .block_height = 5, .group_size = 32}},
+    {"cells_chunks", true, {.form = chunks}},
+    {"cells_chunks_over_32", true, {.form = chunks, .block_height = 5}},
 };
 
 class MediansContract : public testing::TestWithParam<MedianCase> {

@@ -3,21 +3,15 @@
 // Shared by the tests of stages: a device, meshes that are difficult for boxes and codes, and comparison bit for bit.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "builders/builder.h"
 #include "builders/host_tree.h"
 #include "builders/input.h"
-#include "builders/stages/kernel_form.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"

@@ -2,7 +2,6 @@
 //
 // Updates of several objects' trees with a different kind of update for each: every tree equals, bit for bit, the tree of a
 // full rebuild, or the tree that the host makes from the previous one.
-#include <cstring>
 #include <optional>
 
 #include "builders/host_tree.h"

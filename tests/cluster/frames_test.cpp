@@ -17,26 +17,12 @@
 namespace bvhbench {
 namespace {
 
-struct Pipeline {
-    BuilderChoice builder;
-    ColliderChoice collider;
-};
-
 /// One of each kind of tree and of walk. The last is of wide nodes, and leaves pairs out.
-std::vector<Pipeline> pipelines()
-{
-    std::vector<Pipeline> all(4);
-    const char* names[][2] = {{"oibvh-multi", "leaf"},
-                              {"karras", "group"},
-                              {"perfect", "block"},
-                              {"oibvh-wide8", "bvtt"}};
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        all[k].builder.name = names[k][0];
-        all[k].collider.name = names[k][1];
-        all[k].collider.keep_adjacent = k % 2 == 0;
-    }
-    return all;
-}
+const std::vector<PipelineChoice> pipelines = {
+    {{.name = "oibvh-multi"}, {.name = "leaf"}},
+    {{.name = "karras"}, {{.keep_adjacent = false}, "group"}},
+    {{.name = "perfect"}, {.name = "block"}},
+    {{.name = "oibvh-wide8"}, {{.keep_adjacent = false}, "bvtt"}}};
 
 class Frames : public testing::Test {
 protected:
@@ -87,7 +73,7 @@ protected:
             const std::vector<Point> centres = box_centres(share);
             share =
                 moved(share, partitioned({centres, share.ids}, by, ranks->count(), *ranks), *ranks);
-            for (const Pipeline& pipeline : pipelines())
+            for (const PipelineChoice& pipeline : pipelines)
                 expect_frame(wanted[pipeline.collider.keep_adjacent ? 1 : 0], share, pipeline,
                              name + ", " + std::string(partition_names[static_cast<int>(by)]) +
                                  ", " + pipeline.builder.name);
@@ -104,8 +90,8 @@ protected:
         return PairList(std::move(all));
     }
 
-    static void expect_frame(const Expected& expected, const Share& share, const Pipeline& pipeline,
-                             const std::string& name)
+    static void expect_frame(const Expected& expected, const Share& share,
+                             const PipelineChoice& pipeline, const std::string& name)
     {
         const auto builder = make_builder(pipeline.builder, bench().programs);
         const auto collider = make_collider(pipeline.collider, bench().programs);
@@ -180,7 +166,7 @@ TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
     for (const uint id : share.ids)
         to.push_back((id < faces ? 0u : 1u) % ranks->count());
     share = moved(share, to, *ranks);
-    const Pipeline pipeline = pipelines().front();
+    const PipelineChoice& pipeline = pipelines.front();
     expect_frame(expected(mesh, pipeline.collider.keep_adjacent, 0.01), share, pipeline,
                  "a domain in another");
 }

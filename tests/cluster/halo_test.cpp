@@ -40,29 +40,44 @@ std::vector<Aabb> tops_of(std::span<const Aabb> boxes)
     return tops;
 }
 
+/// Boxes by the rank that owns them, box k by rank part[k].
+struct OfRanks {
+    std::vector<std::vector<uint>> ids;
+    std::vector<std::vector<Aabb>> own;
+    std::vector<Aabb> tops;
+
+    OfRanks(std::span<const Aabb> boxes, std::span<const uint> part, uint ranks)
+        : ids(ranks), own(ranks)
+    {
+        for (uint k = 0; k < boxes.size(); ++k) {
+            ids[part[k]].push_back(k);
+            own[part[k]].push_back(boxes[k]);
+        }
+        for (const std::vector<Aabb>& of_rank : own)
+            std::ranges::copy(tops_of(of_rank), std::back_inserter(tops));
+    }
+
+    /// Returns which boxes a rank sends to which others.
+    std::vector<Pair> leaving_from(uint rank) const
+    {
+        return leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size())));
+    }
+};
+
 /// Returns the pairs that ranks find among `boxes`, rank after rank, if rank part[k] owns box k.
 std::vector<Pair> pairs_of_ranks(std::span<const Aabb> boxes, std::span<const uint> part,
                                  uint ranks)
 {
-    std::vector<std::vector<uint>> ids(ranks);
-    std::vector<std::vector<Aabb>> own(ranks);
-    for (uint k = 0; k < boxes.size(); ++k) {
-        ids[part[k]].push_back(k);
-        own[part[k]].push_back(boxes[k]);
-    }
-    std::vector<Aabb> tops;
-    for (const std::vector<Aabb>& of_rank : own)
-        for (const Aabb& top : tops_of(of_rank))
-            tops.push_back(top);
+    const OfRanks all(boxes, part, ranks);
     std::vector<Pair> found;
     for (uint rank = 0; rank < ranks; ++rank) {
-        for (const Pair pair : brute_pairs(own[rank]))
-            found.push_back({ids[rank][pair.a], ids[rank][pair.b]});
-        for (const Pair& one :
-             leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size()))))
-            for (const uint other : ids[one.b])
-                if (overlap(own[rank][one.a], boxes[other]))
-                    found.push_back({ids[rank][one.a], other});
+        const std::vector<uint>& ids = all.ids[rank];
+        for (const Pair pair : brute_pairs(all.own[rank]))
+            found.push_back({ids[pair.a], ids[pair.b]});
+        for (const Pair& one : all.leaving_from(rank))
+            for (const uint other : all.ids[one.b])
+                if (overlap(all.own[rank][one.a], boxes[other]))
+                    found.push_back({ids[one.a], other});
     }
     return found;
 }
@@ -121,16 +136,10 @@ TEST(Halo, IsSmallIfPartsAreBoxes)
     on_ranks(1, [&](Ranks& ranks) {
         part = partitioned({centres, ids}, PartitionBy::rcb, 8, ranks);
     });
-    std::vector<std::vector<Aabb>> own(8);
-    for (uint k = 0; k < boxes.size(); ++k)
-        own[part[k]].push_back(boxes[k]);
-    std::vector<Aabb> tops;
-    for (const std::vector<Aabb>& of_rank : own)
-        for (const Aabb& top : tops_of(of_rank))
-            tops.push_back(top);
+    const OfRanks all(boxes, part, 8);
     std::size_t left = 0;
     for (uint rank = 0; rank < 8; ++rank)
-        left += leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size()))).size();
+        left += all.leaving_from(rank).size();
     EXPECT_GT(left, 0u);
     EXPECT_LT(left, boxes.size() / 20);
 }

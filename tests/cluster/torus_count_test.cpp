@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/aabb.h"
 #include "geometry/cores.h"
 #include "scenes/generate/generators.h"
 #include "tests/all_cases.h"

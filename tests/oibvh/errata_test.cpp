@@ -5,7 +5,6 @@
 // The functions named printed_... are transcribed as printed and are wrong on purpose. Nothing else uses them.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <set>

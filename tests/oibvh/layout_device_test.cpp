@@ -1,42 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <random>
-
-#include "device/arena.h"
-#include "device/program.h"
-#include "device/queue.h"
 #include "oibvh/layout_probe.h"
+
+#include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
 namespace {
 
 /// One of the two dialects in which every kernel must compile, on the default device.
-class LayoutOnTheDevice : public testing::TestWithParam<std::string> {
-protected:
-    void SetUp() override
-    {
-        if (device_names().empty())
-            GTEST_SKIP() << "there is no OpenCL device";
-        device_ = std::make_unique<Device>(open_device(""));
-        const std::string version = device_->cl.getInfo<CL_DEVICE_VERSION>();  // "OpenCL 3.0 ..."
-        if (GetParam() == "CL3.0" && version.rfind("OpenCL 3", 0) != 0)
-            GTEST_SKIP() << device_->name() << " has no OpenCL 3.0";
-        programs_ = std::make_unique<Programs>(*device_, GetParam());
-        queue_ = std::make_unique<Queue>(*device_);
-    }
-
-    template <class T>
-    Buffer<T> buffer_of(std::size_t size) const
-    {
-        return {cl::Buffer(device_->context, CL_MEM_READ_WRITE, size * sizeof(T)), size};
-    }
-
-    std::unique_ptr<Device> device_;
-    std::unique_ptr<Programs> programs_;
-    std::unique_ptr<Queue> queue_;
-};
+class LayoutOnTheDevice : public testing::TestWithParam<std::string> {};
 
 /// Returns trees of critical sizes, and for each tree the ends of every level and some nodes in between.
 std::vector<LayoutQuestion> questions()
@@ -79,18 +50,21 @@ bool same(const LayoutAnswers& a, const LayoutAnswers& b)
 
 TEST_P(LayoutOnTheDevice, IsTheLayoutOnTheHost)
 {
+    const std::string version = bench().device.cl.getInfo<CL_DEVICE_VERSION>();  // "OpenCL 3.0 ..."
+    if (GetParam() == "CL3.0" && !version.starts_with("OpenCL 3"))
+        GTEST_SKIP() << bench().device.name() << " has no OpenCL 3.0";
     const std::vector<LayoutQuestion> asked = questions();
-    Buffer<LayoutQuestion> on_device = buffer_of<LayoutQuestion>(asked.size());
-    on_device.upload(queue_->cl(), asked);
-    const Buffer<LayoutAnswers> binary = buffer_of<LayoutAnswers>(asked.size());
-    const Buffer<LayoutAnswers> kary = buffer_of<LayoutAnswers>(asked.size());
-    cl::Kernel kernel = programs_->kernel("oibvh/layout_probe.cl", "probe_layout");
-    set_arguments(kernel, on_device, static_cast<cl_uint>(asked.size()), binary, kary);
-    queue_->begin("probe");
-    queue_->launch(kernel, (asked.size() + 63) / 64 * 64, 64, 0);
-
-    const std::vector<LayoutAnswers> binary_answers = binary.download(queue_->cl());
-    const std::vector<LayoutAnswers> kary_answers_read = kary.download(queue_->cl());
+    const Buffer<LayoutQuestion> there = on_device(asked);
+    const auto answers = std::vector<LayoutAnswers>(asked.size());
+    const Buffer<LayoutAnswers> binary = on_device(answers), kary = on_device(answers);
+    Programs programs(bench().device, GetParam());
+    cl::Kernel kernel = programs.kernel("oibvh/layout_probe.cl", "probe_layout");
+    set_arguments(kernel, there, static_cast<cl_uint>(asked.size()), binary, kary);
+    bench().queue.begin("probe");
+    bench().queue.launch(kernel, (asked.size() + 63) / 64 * 64, 64, 0);
+    const std::vector<LayoutAnswers> binary_answers = from_device(binary);
+    const std::vector<LayoutAnswers> kary_answers_read = from_device(kary);
+    bench().queue.finish();
     for (std::size_t q = 0; q < asked.size(); ++q) {
         ASSERT_TRUE(same(kary_answers_read[q], kary_answers(asked[q]))) << text(asked[q]);
         if (asked[q].arity == 2) {
