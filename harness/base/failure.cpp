@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/base/failure.h"
 
-#include <filesystem>
+#include <cerrno>
+#include <cstring>
 #include <new>
 #include <system_error>
 
@@ -23,6 +24,12 @@ std::string sentence_of(const std::exception& error)
         return "out of host memory: there is no room for another thread";
     const std::string sentence = error.what();
     return sentence.empty() ? "failed without a word" : sentence;
+}
+
+void cannot_write(const std::filesystem::path& path, const std::string& why)
+{
+    throw Unavailable(path.string() +
+                      " cannot be written: " + (why.empty() ? std::strerror(errno) : why));
 }
 
 std::string reason_of_failure(const std::function<void()>& work, bool* cannot_be)

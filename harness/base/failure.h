@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -9,6 +10,9 @@ namespace bvhbench {
 
 /// Returns the error as one sentence. The sentence for an OpenCL error names the call and the error code.
 std::string sentence_of(const std::exception& error);
+
+/// Throws Unavailable, which says that the file cannot be written, and `why`; by default, what the last failed call left in errno.
+[[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& why = {});
 
 /// Runs `work`. Returns an empty string on success, else the reason of the failure as one sentence.
 ///

@@ -4,23 +4,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
-#include "geometry/error.h"
+#include "harness/base/failure.h"
 #include "harness/base/json_keys.h"
 #include "process/worker.h"
 
 namespace bvhbench {
-namespace {
-
-[[noreturn]] void cannot_write(const std::filesystem::path& path)
-{
-    throw Unavailable(path.string() + " cannot be written: " + std::strerror(errno));
-}
-
-}  // namespace
 
 Journal::~Journal()
 {

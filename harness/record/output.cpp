@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -18,6 +17,7 @@
 
 #include "geometry/error.h"
 #include "geometry/hash.h"
+#include "harness/base/failure.h"
 #include "harness/base/json_keys.h"
 #include "process/worker.h"
 
@@ -30,13 +30,6 @@ using namespace std::chrono_literals;
 constexpr int most_links = 40;  ///< the limit of Linux
 constexpr auto patience = 1s;   ///< a killed process may hold its lock for a moment
 
-[[noreturn]] void fail(const fs::path& path, const std::string& why)
-{
-    throw Unavailable(path.string() + " cannot be written: " + why);
-}
-
-[[noreturn]] void fail(const fs::path& path) { fail(path, std::strerror(errno)); }
-
 fs::path folder_of(const fs::path& path)
 {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -48,7 +41,7 @@ fs::path without_links(fs::path path)
     std::error_code error;
     for (int link = 0; fs::is_symlink(path, error); ++link) {
         if (link == most_links)
-            fail(path, "too many links");
+            cannot_write(path, "too many links");
         path = folder_of(path) / fs::read_symlink(path, error);
     }
     return path;
@@ -111,7 +104,7 @@ public:
         for (;;) {
             file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
             if (file_ < 0)
-                fail(subject);
+                cannot_write(subject);
             const bool is_locked = flock(file_, LOCK_EX | LOCK_NB) == 0;
             const bool has_locks = is_locked || errno == EWOULDBLOCK || errno == EINTR;
             if (!has_locks || (is_locked && names(path_, file_)))
@@ -155,10 +148,10 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
         return;
     target_ = without_links(path);
     if (!fs::is_directory(folder_of(target_)))
-        fail(path, "there is no folder " + folder_of(target_).string());
+        cannot_write(path, "there is no folder " + folder_of(target_).string());
     if ((is_there && access(target_.c_str(), W_OK) != 0) ||
         access(folder_of(target_).c_str(), W_OK | X_OK) != 0)
-        fail(path);
+        cannot_write(path);
     const fs::path lock = folder_of(target_) / ("." + target_.filename().string() + ".lock");
     lock_ = std::make_shared<const FileLock>(lock, path.string());
     // Checked after locking: the previous holder of the lock may have written the file.
@@ -201,7 +194,7 @@ Output::Writer::Writer(const Output& output) : output_(output)
             open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     }
     if (file_ < 0)
-        fail(output.path_);
+        cannot_write(output.path_);
     if (output.is_file_ && is_there) {
         // Only root may change the owner. For other users this fails, and they own the new file.
         [[maybe_unused]] const int given = fchown(file_, about.st_uid, about.st_gid);
@@ -221,14 +214,14 @@ Output::Writer::~Writer()
 void Output::Writer::append(std::string_view text)
 {
     if (!write_all(file_, text))
-        fail(output_.path_);
+        cannot_write(output_.path_);
 }
 
 void Output::Writer::finish()
 {
     if (!temporary_.empty()) {
         if (fsync(file_) != 0 || std::rename(temporary_.c_str(), output_.target_.c_str()) != 0)
-            fail(output_.path_);
+            cannot_write(output_.path_);
         if (const int folder =
                 open(folder_of(output_.target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
             folder >= 0) {
@@ -239,7 +232,7 @@ void Output::Writer::finish()
         temporary_.clear();
     }
     if (close(std::exchange(file_, -1)) != 0)
-        fail(output_.path_);
+        cannot_write(output_.path_);
 }
 
 void check_pictures(const fs::path& folder, const std::string& option, OutputRules rules)

@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <thread>
 #include <vector>
@@ -43,7 +42,7 @@ Turns::Turns(std::string path, int count, std::string id)
                        " has been used by others; name a file that is not there");
     descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
     if (descriptor_ < 0)
-        throw Unavailable("--turns: " + path_ + " cannot be written: " + std::strerror(errno));
+        cannot_write("--turns: " + path_);
 }
 
 Turns::~Turns() { close(descriptor_); }
@@ -63,7 +62,7 @@ void Turns::part()
 bool Turns::all_come()
 {
     if (!write_all(descriptor_, id_ + '\n'))
-        throw Unavailable("--turns: " + path_ + " cannot be written: " + std::strerror(errno));
+        cannot_write("--turns: " + path_);
     ++meetings_;
     const auto start = std::chrono::steady_clock::now();
     for (;;) {
