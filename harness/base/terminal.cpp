@@ -2,7 +2,6 @@
 #include "harness/base/terminal.h"
 
 #include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>

@@ -3,6 +3,8 @@
 // Terminal output: escapes control characters and shows the progress of long runs.
 #pragma once
 
+#include <unistd.h>
+
 #include <chrono>
 #include <functional>
 #include <ostream>
@@ -34,7 +36,7 @@ private:
 };
 
 /// Returns the columns of the terminal that the file descriptor is, at least 40; 0 if it is no terminal. COLUMNS takes precedence.
-std::size_t terminal_width(int file);
+std::size_t terminal_width(int file = STDOUT_FILENO);
 
 /// Returns the number of characters, not bytes.
 std::size_t character_count(std::string_view text);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/cluster.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <iostream>
 #include <utility>
@@ -90,7 +88,7 @@ private:
     {
         if (const std::string why = mpi_absent(); !why.empty())
             throw Unavailable(why);
-        const std::size_t width = terminal_width(STDOUT_FILENO);
+        const std::size_t width = terminal_width();
         std::vector<std::string> words(invocation.words.begin() + 1, invocation.words.end());
         if (width == 0)  // no terminal, but mpirun gives rank 0 one
             words.emplace_back("--wide");

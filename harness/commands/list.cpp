@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <functional>
 #include <iostream>
 
@@ -180,7 +178,7 @@ public:
         for (const std::vector<std::string>& row : all)
             table.row(row);
         std::cout << (is_json_ ? Json(all).dump(1) + '\n'
-                               : table.text(common.wide ? 0 : terminal_width(STDOUT_FILENO)));
+                               : table.text(common.wide ? 0 : terminal_width()));
         return has_broken_outside() ? 3 : 0;
     }
 
@@ -196,8 +194,7 @@ extern const CommandEntry list_command = {
     knowing,
     "What there is, a line each",
     "Without a word: what lists there are. Names are what other commands take. A line that says "
-    "'built without' names a library that "
-    "this build lacks.",
+    "'built without' names a library that this build lacks.",
     {{"bvhbench list builders", "names, and what each is"},
      {"bvhbench list builders --json", "the same for scripts"},
      {"bvhbench list devices", "for --device: words of a name, or its index"},

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <iostream>
 
 #include "geometry/names.h"
@@ -128,8 +126,7 @@ private:
         scene.facts = mesh_facts(scene, sampled_triangles);
         if (!common.quiet)
             std::cout << "scene " << scene.name << '\n'
-                      << facts_table(scene).text(common.wide ? 0 : terminal_width(STDOUT_FILENO))
-                      << std::flush;
+                      << facts_table(scene).text(common.wide ? 0 : terminal_width()) << std::flush;
         return scene_text(facts_of(scene, scene.name, 0));
     }
 

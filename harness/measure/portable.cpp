@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <iostream>
 
 #include "collide/narrow/narrow_methods.h"
@@ -42,7 +40,7 @@ std::string device_text(const Device& device)
                    value.is_string() ? value.get<std::string>() : value.dump()});
     table.row({"loops", device.ends_loops ? "end after 65,535 steps" : "end by themselves"});
     table.row({"extensions", device.cl.getInfo<CL_DEVICE_EXTENSIONS>()});
-    return table.text(terminal_width(STDOUT_FILENO));
+    return table.text(terminal_width());
 }
 
 }  // namespace
