@@ -109,18 +109,17 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
     task.pipelines = pipelines;
     if (json.is_string()) {
         task.scene = scene_name(json.get<std::string>());
-        check_features(task);
-        return task;
-    }
-    refuse_unknown_keys(json, choice_keys(Choice::Of::scene, {"scene", "pairs_of"}), "a scene");
-    task.scene = scene_name(text_at(json, "scene"));
-    CellChoice choice;
-    read_choices(json, Choice::Of::scene, choice);
-    static_cast<SceneChoice&>(task) = choice.scene;
-    if (json.contains("pairs_of")) {
-        read_choices({{"pairs_of", json["pairs_of"]}}, Choice::Of::query, choice);
-        for (PipelineChoice& pipeline : task.pipelines)
-            pipeline.collider.among = choice.collider.among;
+    } else {
+        refuse_unknown_keys(json, choice_keys(Choice::Of::scene, {"scene", "pairs_of"}), "a scene");
+        task.scene = scene_name(text_at(json, "scene"));
+        CellChoice choice;
+        read_choices(json, Choice::Of::scene, choice);
+        static_cast<SceneChoice&>(task) = choice.scene;
+        if (json.contains("pairs_of")) {
+            read_choices({{"pairs_of", json["pairs_of"]}}, Choice::Of::query, choice);
+            for (PipelineChoice& pipeline : task.pipelines)
+                pipeline.collider.among = choice.collider.among;
+        }
     }
     check_features(task);
     return task;

@@ -41,8 +41,6 @@ public:
         return std::span(scene_.faces).subspan(at.first_face, at.face_count);
     }
 
-    Aabb box(std::size_t object) const { return box_around(points_, faces(object)); }
-
     bool is_closed(std::size_t object) const
     {
         std::vector<std::pair<uint, uint>> edges;
@@ -123,7 +121,7 @@ Containment containment(const Scene& scene, std::size_t frame, std::span<const P
     const auto touching = touching_objects(scene, contacts);
     std::vector<Aabb> boxes;
     for (std::size_t object = 0; object < scene.objects.size(); ++object)
-        boxes.push_back(now.box(object));
+        boxes.push_back(box_around(scene.frames[frame], now.faces(object)));
     Containment containment;
     for (std::size_t outer = 0; outer < boxes.size(); ++outer) {
         if (!now.is_closed(outer)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/judge/hard_inputs.h"
 
+#include <functional>
 #include <random>
 
 namespace bvhbench {
@@ -44,15 +45,9 @@ Mesh soup(std::size_t triangles, const Change& change)
     return mesh;
 }
 
-Point scaled(Point p, float size, float shift)
-{
-    return {shift + size * p.x, shift + size * p.y, shift + size * p.z};
-}
+Point scaled(Point p, float size, float shift) { return moved({shift, shift, shift}, p, size); }
 
-Mesh random_soup(std::size_t n)
-{
-    return soup(n, [](Point p) { return p; });
-}
+Mesh random_soup(std::size_t n) { return soup(n, std::identity()); }
 
 constexpr HardInput inputs[] = {
     {"random", random_soup},

@@ -140,8 +140,7 @@ Json run_facts(const Device& device, std::vector<std::string> command, const Nod
     run["device"] = device_facts(device);
     run["libraries"] = libraries;
     run["tuning"] = {{"from", device.tuning.origin()}, {"values", device.tuning.values()}};
-    if (device.host_clock)
-        run["clock"] = "host";
+    put_if(run, "clock", std::string(device.host_clock ? "host" : ""));
     run["compile_ns"] = 0;
     run["node_costs"] = {{"inner", costs.inner}, {"triangle", costs.triangle}};
     run["conditions"] = host_conditions(build_info.build_type);

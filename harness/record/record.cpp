@@ -48,8 +48,7 @@ Json json_of(const SceneFacts& scene)
     put_if(json, "objects_by", scene.objects_by);
     put_if(json, "between", scene.between);
     put_if(json, "exclude", scene.exclude);
-    if (scene.filter_hash != 0)
-        json["filter_hash"] = hex(scene.filter_hash);
+    put_if(json, "filter_hash", scene.filter_hash != 0 ? hex(scene.filter_hash) : "");
     if (scene.triangles > 0) {
         json["triangles"] = scene.triangles;
         json["vertices"] = scene.vertices;

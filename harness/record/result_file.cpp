@@ -267,9 +267,9 @@ std::vector<CellText> ResultFile::all_cells() const
 }
 
 /// Returns the keys of parts of which cells may be missing.
-Json ResultFile::unfinished_parts() const
+std::vector<std::string> ResultFile::unfinished_parts() const
 {
-    Json keys = Json::array();
+    std::vector<std::string> keys;
     if (!part_.empty())
         keys.push_back(part_);
     for (const auto& [key, part] : earlier_.parts)
@@ -331,8 +331,7 @@ void ResultFile::write()
 {
     note_memory(run_);
     run_.erase("unfinished_parts");
-    if (const Json keys = unfinished_parts(); !keys.empty())
-        run_["unfinished_parts"] = keys;
+    put_if(run_, "unfinished_parts", unfinished_parts());
     if (!output_.is_nowhere() && is_worth_writing())
         output_.replace(text());
     is_written_ = true;

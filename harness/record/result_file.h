@@ -118,7 +118,7 @@ public:
 private:
     void append(const CellText& cell);
     std::vector<CellText> all_cells() const;
-    Json unfinished_parts() const;
+    std::vector<std::string> unfinished_parts() const;
     bool is_worth_writing() const;
     void remove_journal() const;
     void write();

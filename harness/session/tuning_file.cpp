@@ -40,16 +40,15 @@ const Parameter* parameter_called(std::string_view name)
 
 TunedValue value_of(const Json& json, const Parameter& parameter)
 {
+    const std::string name(parameter.name);
     if (!json.is_object() || !json.contains("value"))
-        throw BadUsage("'" + std::string(parameter.name) + "' must be an object with a 'value'");
-    refuse_unknown_keys(json,
-                        {"value", "target", "scene", "ratio", "samples", "found_at", "commit"},
-                        std::string(parameter.name));
+        throw BadUsage("'" + name + "' must be an object with a 'value'");
+    refuse_unknown_keys(
+        json, {"value", "target", "scene", "ratio", "samples", "found_at", "commit"}, name);
     TunedValue value;
-    value.value = number_of<uint>(json["value"], std::string(parameter.name), parameter.least,
-                                  parameter.most);
+    value.value = number_of<uint>(json["value"], name, parameter.least, parameter.most);
     if (const std::string why = parameter.refusal(value.value); !why.empty())
-        throw BadUsage(std::string(parameter.name) + ' ' + why);
+        throw BadUsage(name + ' ' + why);
     value.target = text_in(json, "target");
     value.scene = text_in(json, "scene");
     value.found_at = text_in(json, "found_at");
