@@ -122,7 +122,7 @@ std::string rounding_text(const Rounding& rounding)
     if (*rounding.how != Doubles::as_is) {
         const auto& [x, y, z] = rounding.offset;
         std::snprintf(part.data(), part.size(), " around (%.3g, %.3g, %.3g)", x, y, z);
-        text += part.data();
+        text += x != 0 || y != 0 || z != 0 ? part.data() : "";
         if (rounding.scale_log2 != 0)
             text += ", scaled by 2^" + std::to_string(rounding.scale_log2);
         text += *rounding.how == Doubles::kept ? ", and kept for steps between frames" : "";

@@ -111,9 +111,9 @@ void measure_set(const AxisRun& run, const QuerySet& set, const std::string& nam
     };
     for (const QueryMethod& method : query_methods())
         add(method.name, method);
-    for (const outside::Offer* offer : outside_offers())
-        if (offer->method.answers)
-            add(offer->method.name, *offer);
+    for (const outside::Offer& offer : outside_offers())
+        if (offer.method.answers)
+            add(offer.method.name, offer);
     if (methods.empty())
         return;
     separation = distance_of(run.task.separation, set.box());

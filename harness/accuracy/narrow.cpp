@@ -94,9 +94,9 @@ std::vector<std::string> method_names()
     std::vector<std::string> names;
     for (const NarrowMethod& method : narrow_methods(NarrowOf::moment))
         names.emplace_back(method.name);
-    for (const outside::Offer* offer : outside_offers())
-        if (offer->method.narrows)
-            names.push_back(offer->method.name);
+    for (const outside::Offer& offer : outside_offers())
+        if (offer.method.narrows)
+            names.push_back(offer.method.name);
     return names;
 }
 
@@ -158,9 +158,9 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
         };
         methods.push_back({.name = std::string(method.name), .prepare = prepare});
     }
-    for (const outside::Offer* offer : outside_offers())
-        if (offer->method.narrows)
-            methods.push_back(from_outside(session, *offer, piece, sizes[offer->method.name]));
+    for (const outside::Offer& offer : outside_offers())
+        if (offer.method.narrows)
+            methods.push_back(from_outside(session, offer, piece, sizes[offer.method.name]));
     measure_methods(run, "narrow", {.name = name}, methods);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/catalog.h"
 
-#include <list>
 #include <ranges>
 #include <vector>
 
@@ -270,13 +269,7 @@ bool has_broken_outside() { return !outside_entries().broken.empty(); }
 
 bool has_outside() { return !outside_entries().libraries.empty(); }
 
-std::vector<const outside::Offer*> outside_offers()
-{
-    std::vector<const outside::Offer*> found;
-    for (const outside::Offer& offer : outside_entries().offers)
-        found.push_back(&offer);
-    return found;
-}
+const std::list<outside::Offer>& outside_offers() { return outside_entries().offers; }
 
 const outside::Library* outside_library(std::string_view name)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -152,7 +153,7 @@ bool has_broken_outside();
 bool has_outside();
 
 /// Returns all methods from outside.
-std::vector<const outside::Offer*> outside_offers();
+const std::list<outside::Offer>& outside_offers();
 
 /// Returns the library of the method `name` from outside; nullptr if it is none.
 const outside::Library* outside_library(std::string_view name);

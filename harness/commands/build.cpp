@@ -31,13 +31,10 @@ class Build final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        app.add_option("--builder", names_.builders, "names of `list builders`")
-            ->delimiter(',')
-            ->required();
+        add_names(app, "--builder", names_.builders, "names of `list builders`")->required();
         app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
-        app.add_option("--order", names_.orders, "names of `list orders`")
-            ->delimiter(',')
-            ->default_str(std::string(SeveralNames::paper_order));
+        add_names(app, "--order", names_.orders, "names of `list orders`")
+            ->default_str(names_.orders.front());
         add_choices(app, choice_, [](const Choice& option) {
             return option.of == Choice::Of::builder && option.key != "order";
         });

@@ -137,10 +137,8 @@ private:
     {
         SeveralNames names = names_;
         chosen_ = names.take_best(best, choice_.builder);
-        choice_.builder.name = names.builders.front();
-        choice_.builder.order = names.orders.front();
-        choice_.collider.name = names.colliders.front();
-        task_.pipeline = {choice_.builder, choice_.collider};
+        const CellChoice choice = names.combined_with(choice_).front();
+        task_.pipeline = {choice.builder, choice.collider};
     }
 
     int simulate(const Invocation& invocation)

@@ -179,8 +179,8 @@ private:
         for (const PlannedScene& scene : scenes)
             for (const Cell& cell : planned_cells(scene, filter))
                 there.insert({cell.builder.name, cell.collider.name});
-        for (const outside::Offer* offer : outside_offers())
-            if (const std::string& name = offer->method.name;
+        for (const outside::Offer& offer : outside_offers())
+            if (const std::string& name = offer.method.name;
                 !there.contains(name) && !there.contains(name + "-refit"))
                 std::cerr << name << ", from outside, takes no part in " << plan << '\n';
     }

@@ -134,15 +134,19 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
         ->transform(a_number(1000, true));
 }
 
+CLI::Option* add_names(CLI::App& app, const char* option, std::vector<std::string>& names,
+                       const char* help, int most)
+{
+    return app.add_option(option, names, help)->delimiter(',')->expected(1, most);
+}
+
 void SeveralNames::add_to(CLI::App& app, int most)
 {
-    const auto add = [&](const char* option, std::vector<std::string>& names, const char* help) {
-        app.add_option(option, names, help)->delimiter(',')->expected(1, most);
-    };
-    add("--builder", builders, "names of `list builders`; left out: the fastest");
-    add("--order", orders,
-        "names of `list orders`; left out: the fastest, after --builder morton30");
-    add("--collider", colliders, "names of `list colliders`; left out: the fastest");
+    add_names(app, "--builder", builders, "names of `list builders`; left out: the fastest", most);
+    add_names(app, "--order", orders,
+              "names of `list orders`; left out: the fastest, after --builder morton30", most);
+    add_names(app, "--collider", colliders, "names of `list colliders`; left out: the fastest",
+              most);
 }
 
 std::string SeveralNames::take_best(const BestPipeline& best, BuilderChoice& builder)

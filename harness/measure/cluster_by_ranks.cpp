@@ -3,46 +3,17 @@
 
 #include <re2/re2.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "cluster/mpi_ranks.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
 #include "process/child.h"
-#include "process/interrupt.h"
 #include "process/mpirun.h"
+#include "process/temporary_folder.h"
 
 namespace bvhbench {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// A folder for the file that ranks write, removed with all that is in it, also by a signal.
-class FolderOfRanks {
-public:
-    FolderOfRanks()
-    {
-        std::string name = (fs::temp_directory_path() / "bvhbench-ranks-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw Unavailable("no folder can be made for the file of the ranks: " + name);
-        path = name;
-    }
-    ~FolderOfRanks() { remove(); }
-    FolderOfRanks(const FolderOfRanks&) = delete;
-    FolderOfRanks& operator=(const FolderOfRanks&) = delete;
-
-    fs::path path;
-
-private:
-    void remove() const
-    {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-
-    AtSignal removed_{[this] { remove(); }};
-};
 
 /// Returns how NVIDIA's devices are linked, as nvidia-smi prints it; empty where it cannot tell.
 std::string topology()
@@ -64,14 +35,14 @@ Json cell_by_ranks(const ClusterTask& task, const CommonOptions& common)
 {
     if (const std::string why = mpi_absent(); !why.empty())
         throw Unavailable(why);
-    const FolderOfRanks folder;
-    const fs::path file = folder.path / "cell.json";
+    const TemporaryFolder folder("ranks");
+    const std::filesystem::path file = folder.path / "cell.json";
     std::vector<std::string> words = task.words;
     words.insert(words.end(), common.given.begin(), common.given.end());
     words.insert(words.end(),
                  {"--samples", std::to_string(task.samples), "--json", file, "--quiet"});
     const RanksEnd end = run_ranks(task.ranks, words, 0, common.time_limit_s);
-    if (!fs::exists(file)) {
+    if (!std::filesystem::exists(file)) {
         const std::string why = !end.sentence.empty()
                                     ? end.sentence
                                     : "ranks ended with exit code " + std::to_string(end.code);

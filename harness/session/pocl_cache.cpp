@@ -11,6 +11,7 @@
 
 #include "geometry/error.h"
 #include "harness/base/common_options.h"
+#include "harness/base/failure.h"
 #include "process/watchdog.h"
 
 namespace bvhbench {
@@ -81,9 +82,9 @@ PoclCache::PoclCache()
         take_temporary("they cannot be kept in '" + folder.string() + "': " + problem);
     else if (folder == own)
         share(folder);
-    const fs::path& used = temporary_.empty() ? folder : temporary_;
+    const fs::path& used = temporary_ ? temporary_->path : folder;
     setenv("POCL_CACHE_DIR", used.c_str(), 1);  // replaces an empty one, on which PoCL aborts
-    if (temporary_.empty())
+    if (!temporary_)
         watchdog::kernels_are_in(used);
 }
 
@@ -91,11 +92,8 @@ PoclCache::~PoclCache()
 {
     if (lock_ >= 0)
         close(lock_);
-    std::error_code ignored;
-    if (!temporary_.empty()) {
-        fs::remove_all(temporary_, ignored);
+    if (temporary_)
         unsetenv("POCL_CACHE_DIR");
-    }
 }
 
 /// Empties a large folder, but not while other processes use it.
@@ -113,20 +111,12 @@ void PoclCache::share(const fs::path& folder)
 
 void PoclCache::take_temporary(const std::string& why)
 {
-    std::error_code error;
-    const fs::path base = fs::temp_directory_path(error);
-    std::string problem = error ? error.message() : folder_problem(base);
-    std::string name = (base / "bvhbench-pocl-XXXXXX").string();
-    if (problem.empty() && mkdtemp(name.data()) == nullptr)
-        problem = "no folder can be made there";
+    std::string problem = reason_of_failure([&] { temporary_.emplace("pocl"); });
+    if (problem.empty())
+        problem = folder_problem(temporary_->path);
     if (!problem.empty())
         throw Unavailable("there is nowhere to put compiled kernels: " + why +
                           "; nor among temporary files: " + problem);
-    temporary_ = name;
-    removed_.emplace([this] {
-        std::error_code ignored;
-        fs::remove_all(temporary_, ignored);
-    });
     std::cerr << "bvhbench: kernels are compiled anew, for " << why << '\n';
 }
 

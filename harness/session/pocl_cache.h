@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "process/interrupt.h"
+#include "process/temporary_folder.h"
 
 namespace bvhbench {
 
@@ -28,9 +28,8 @@ private:
     void share(const std::filesystem::path& folder);
     void take_temporary(const std::string& why);
 
-    std::filesystem::path temporary_;
+    std::optional<TemporaryFolder> temporary_;
     int lock_ = -1;  ///< shared lock while our folder is used, exclusive while it is emptied
-    std::optional<AtSignal> removed_;  ///< removes the temporary folder on a signal
 };
 
 }  // namespace bvhbench

@@ -281,7 +281,8 @@ TEST(Experiment, HasScenesOnSeveralRanks)
     EXPECT_EQ(first.words,
               (std::vector<std::string>{"cluster", "torus:9", "--ranks", "2", "--order",
                                         "hilbert30", "--narrow", "exact", "--adjacent", "drop",
-                                        "--frames", "0:6", "--share-devices"}));
+                                        "--frames", "0:6", "--share-devices", "--builder",
+                                        "oibvh-multi", "--collider", "leaf"}));
     const ClusterTask& second = experiment.clusters.at(1);
     EXPECT_EQ((std::vector{first.ranks, first.simulates, second.ranks, second.simulates}),
               (std::vector{2u, 0u, 0u, 8u}));
