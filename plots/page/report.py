@@ -99,7 +99,10 @@ def page_of(kind: str, note: str, parts: list[Part], overview: list[Json], scene
             "dark": plot_looks.IN_THE_DARK}
     blobs, sections = [html.json_blob("head", head)], []
     for number, part in enumerate(parts):
-        blobs += [html.json_blob(f"file-{number}", part.data | {"run": {key: part.document[key] for key in KEPT if key in part.document}}),
+        kept = {key: part.document[key] for key in KEPT if key in part.document}
+        if whose := {f"{cell['outside']['name']}: {Cell(cell).provenance}": None for cell in part.document["cells"] if "outside" in cell}:
+            kept["from_outside"] = list(whose)
+        blobs += [html.json_blob(f"file-{number}", part.data | {"run": kept}),
                   html.json_blob(f"samples-{number}", part.samples)]
         sections.append(html.section(number, part.title, circumstances.sentence_of(part.document), part.warnings, part.answers))
     blobs += [html.blob(f"view-{number}-{name}", content) for number, (_, arrays) in enumerate(scenes) for name, content in arrays.items()]

@@ -175,7 +175,7 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
 {
     for (const std::vector<const char*>& words : std::vector<std::vector<const char*>>{
              {},
-             {"list"},
+             {"list", "nothing", "more"},
              {"stress", "--seed", "x"},
              {"stress", "scale"},
              {"build"},
@@ -184,7 +184,7 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
              {"build", "--builder", "perfect", "--scene", "s", "--samples", "many"},
              {"build", "--builder", "perfect", "--scene", "s", "--group-size", "-1"},
              {"build", "--builder", "perfect", "--scene", "s", "--json", ""},
-             {"collide", "--builder", "perfect", "--scene", "s"},
+             {"collide", "--builder", "perfect"},
              {"run"},
              {"run", "table1", "--fast"},
              {"run", "table4", "--sah-inner", "0", "--sah-triangle", "0"},
@@ -222,8 +222,8 @@ TEST(Catalog, ListsEachOnceAndAnswersAnUnknownNameWithThoseThereAre)
                        : "") +
                   "did you mean 'leaf'?");
     EXPECT_GT(builder_catalog().size(), 15u);
-    EXPECT_EQ(refusal_of<BadUsage>([] { find_builder("oibvh"); }),
-              "no builder is called 'oibvh'; there are: " + joined(names_of(builder_catalog())));
+    EXPECT_EQ(refusal_of<BadUsage>([] { find_builder("zzz"); }),
+              "no builder is called 'zzz'; there are: " + joined(names_of(builder_catalog())));
 }
 
 }  // namespace
