@@ -196,8 +196,8 @@ def band(row: Row, measure: Measure) -> tuple[float, float]:
 
 
 def set_ends(row: Row, best: Row, measure: Measure, times: float) -> None:
-    """Sets the ends of the row's interval, of whose time the best's fits into it so many `times`. It begins at the median of what was
-    beaten, because the race has compared the intervals. Few samples tell only what is far apart."""
+    """Sets the ends of the row's interval, in multiples of the best's time; `times` is the row's own time in these. What was beaten begins
+    at its median, because the race has compared the intervals. Few samples tell only what is far apart."""
     row.low, row.high = math.nextafter(times / FAR, math.inf), times  # FAR times is far enough
     if min(row.counts + best.counts) >= FEWEST:
         row.low, row.high = (times * end / max(row.ns, 1) for end in band(row, measure))
