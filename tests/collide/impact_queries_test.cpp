@@ -92,8 +92,8 @@ TEST(ImpactQueries, WithBoundsMissNothingAndAreNeverLate)
     if (!has_exact_reference)
         GTEST_SKIP() << "built without CGAL: there is no reference";
     for (const Class& of : classes)
-        for (const auto [of_edges, share] : {std::pair(false, 0.0), std::pair(true, 0.0),
-                                             std::pair(false, 0.1), std::pair(true, 1e-9)}) {
+        for (const auto& [of_edges, share] : {std::pair(false, 0.0), std::pair(true, 0.0),
+                                              std::pair(false, 0.1), std::pair(true, 1e-9)}) {
             const std::vector<MovingQuery> queries = random_queries(of, of_edges, 1500);
             const double separation = share * of.size;
             auto right = impact_times(queries, nullptr, separation);
