@@ -9,6 +9,8 @@ from .refusals import Rules
 
 WORST_FIRST = ("failed", "skipped", "differs", "not checked", "counted", "agrees")  # verdicts
 OF_ANSWERS = {"pairs_hash": "pairs", "contacts_hash": "contacts"}
+# Counters that say how wrong an answer is. Where they are, they tell what is worse; the answer's hash and number only differ.
+ERRORS_OF = {"pairs": "missed_pairs_count", "contacts": "missed_count"}
 NO_HASH = "0" * 16
 # Names of circumstances in remarks, and their places in the facts of a run.
 CIRCUMSTANCES = {"device": ("device", "name"), "driver": ("device", "driver"), "host": ("host", "name"),
@@ -31,9 +33,9 @@ def fact_changes(first: Cell, second: Cell, rules: Rules) -> Found:
     if scenes[0] != scenes[1]:
         found[0].append(f"another scene of the same name: content {scenes[1]}, was {scenes[0]}")
     elif rules.builders:
-        compare_hashes(first.check, {**second.check, "tree_hash": first.check.get("tree_hash")}, found)
+        compare_hashes(first, second, found, ())
     elif not rules.other_devices:
-        compare_hashes(first.check, second.check, found)
+        compare_hashes(first, second, found)
         compare_counters(first, second, rules.allow_missing, found)
     return found
 
@@ -45,12 +47,19 @@ def compare_verdicts(first: Cell, second: Cell, found: Found) -> None:
         found[after > before].append(f"{second.verdict}{f' ({why})' if why else ''}, was {first.verdict}")
 
 
-def compare_hashes(first: dict[str, Any], second: dict[str, Any], found: Found) -> None:
-    for key, what in OF_ANSWERS.items():
-        if key in first and key in second and first[key] != second[key]:
-            found[0].append(f"other {what}: {second[key]}, were {first[key]}")
-    if "tree_hash" in first and "tree_hash" in second and first["tree_hash"] != second["tree_hash"]:
-        found[1].append(f"another tree: {second['tree_hash']}, was {first['tree_hash']}")
+def compare_hashes(first: Cell, second: Cell, found: Found, of_trees: tuple[str, ...] = ("tree_hash",)) -> None:
+    for key in (*OF_ANSWERS, *of_trees):
+        before, after = (cell.check.get(key) for cell in (first, second))
+        if before is None or after is None or before == after:
+            continue
+        if what := OF_ANSWERS.get(key):
+            found[counts_errors(what, first, second)].append(f"other {what}: {after}, were {before}")
+        else:
+            found[1].append(f"another tree: {after}, was {before}")
+
+
+def counts_errors(what: str, *cells: Cell) -> bool:
+    return all(ERRORS_OF.get(what) in cell.counters for cell in cells)
 
 
 def compare_counters(first: Cell, second: Cell, allow_missing: bool, found: Found) -> None:
@@ -60,7 +69,7 @@ def compare_counters(first: Cell, second: Cell, allow_missing: bool, found: Foun
             why = second.left_out.get(counter)
             found[allow_missing].append(f"no {counter}{'' if why is None else f' ({why})'}, was {exact(value)}")
         elif differs(counter, float(value), float(other), first):
-            is_better = is_better_smaller(counter) and other < value
+            is_better = is_better_smaller(counter) and other < value or counts_errors(counter.removesuffix("_count"), first, second)
             found[is_better or not is_promised(counter, first)].append(f"{counter} {exact(other)}, was {exact(value)}")
     before, after = first.leaves_by_depth, second.leaves_by_depth
     if before and after and before != after:

@@ -273,6 +273,18 @@ class Facts(unittest.TestCase):
         self.assertEqual(with_sentences(lambda raw: raw["scene"].update(content_hash="3" * 16)),
                          ([f"another scene of the same name: content {'3' * 16}, was {'0' * 16}"], []))
 
+    def test_where_errors_are_counted_they_tell_whether_another_answer_is_worse(self) -> None:
+        for errors, worse in ((7, []), (9, ["false_count 9, was 8"])):
+            first = document(cell())
+            only = first["cells"][0]
+            only["check"] |= {"verdict": "counted", "contacts_hash": "1" * 16}
+            only["counters"] |= {"missed_count": 0, "false_count": 8, "contacts_count": 108}
+            second = copy.deepcopy(first)
+            second["cells"][0]["check"]["contacts_hash"] = "3" * 16
+            second["cells"][0]["counters"] |= {"false_count": errors, "contacts_count": 100 + errors}
+            found = compared(first, second).cells[0]
+            self.assertEqual((found.regressions, len(found.changes)), (worse, 3 - len(worse)))
+
     def test_a_lost_verdict_is_a_regression_and_a_won_one_is_not(self) -> None:
         good, wrong = document(cell()), document(cell())
         wrong["cells"][0]["check"] = {"verdict": "differs", "detail": "box 3"}
