@@ -118,11 +118,7 @@ def grid(rows: int, columns: int, inches: float, **more: object) -> tuple[plt.Fi
 def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
     """Creates `count` panels in at most `columns` columns; returns figure, panels and columns. `inches`: page and row heights."""
     columns = min(columns, count)
-    rows = math.ceil(count / columns)
-    drawing, made = grid(rows, columns, inches[0] + inches[1] * rows, **shared)
-    for axes in list(made.flat)[count:]:
-        axes.remove()
-    return drawing, list(made.flat)[:count], columns
+    return *stacked([1] * count, inches[1], inches[0], columns, **shared), columns
 
 
 def columns_for(labels: list[str], most: int) -> int:
@@ -137,6 +133,15 @@ def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:
     columns = columns_for([str(handle.get_label()) for handle in handles], columns)
     figure.legend(handles=handles, loc="upper center", ncols=columns, columnspacing=1.2)
     return 0.1 + 0.16 * math.ceil(len(handles) / columns)
+
+
+def stacked(rows: list[float], row: float, more: float, columns: int = 1, **shared: object) -> tuple[plt.Figure, list[plt.Axes]]:
+    """Creates a panel of `row` inches for each of its `rows`; those beside each other are as high as the highest. `more`: inches."""
+    heights = [max(rows[left:left + columns]) for left in range(0, len(rows), columns)]
+    drawing, made = grid(len(heights), columns, row * sum(heights) + more, height_ratios=heights, **shared)
+    for axes in list(made.flat)[len(rows):]:
+        axes.remove()
+    return drawing, list(made.flat)[:len(rows)]
 
 
 def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[str, ...] = (),

@@ -93,9 +93,7 @@ def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
 
 def panels(scenes: dict[str, list[Pipeline]], more: float) -> tuple[plt.Figure, list[plt.Axes]]:
     """Creates one panel below the other, each with height for its bars and `more` additional bars."""
-    rows = [len(shown) + more for shown in scenes.values()]
-    drawing, grid = figure.grid(len(scenes), 1, ROW * sum(rows) + 0.7, height_ratios=rows, sharex=True)
-    return drawing, list(grid[:, 0])
+    return figure.stacked([len(shown) + more for shown in scenes.values()], ROW, 0.7, sharex=True)
 
 
 def frames_of(shown: list[Pipeline]) -> int:

@@ -16,7 +16,8 @@ from . import frame_bars
 
 MOST_MORE = 5  # bars beside the best of each family and the one to take
 MOST_SCENES = 8
-TITLE = 60  # most letters of a line above a panel
+TITLE = {1: 60, 2: 40}  # most letters of a line above a panel, by the figure's columns
+ROW = {1: pipelines.ROW, 2: 0.135}  # inches for each bar
 BYTES = (("tree", "tree_bytes", "#009E73"), ("scratch", "scratch_bytes", "#56B4E9"), ("query", "query_bytes", "#E69F00"),
          ("narrow phase", "narrow_bytes", "#D55E00"))
 # The name of each part of a frame, by its colour.
@@ -40,7 +41,7 @@ def parts_of(row: Row, objective: str, by_wall: bool) -> list[Part]:
 
 
 def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, label: Callable[[Row], str],
-               first: int, take: Row | None) -> set[tuple[str, str]]:
+               first: int, take: Row | None, columns: int) -> set[tuple[str, str]]:
     """Draws the bars of one scene and returns the names and colours of their parts. `first` is the scene's first frame."""
     drawn = [parts_of(row, objective, by_wall) for row in rows]
     wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns
@@ -52,23 +53,23 @@ def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, by_wall: bool, l
         marks = f"  {mark}" * (place > 0 and is_compared) + "  take" * (take is not None and method(row.first) == method(take.first))
         frame_bars.bar(axes, place, [part[1:] for part in parts], limit, f"{three_digits(whole)} {'MB' if objective == 'memory' else 'ms'}{marks}")
     pipelines.dress_rows(axes, [label(row) for row in rows])
-    axes.set_xlim(0, 1.3 * min(limit, max(wholes)))
+    axes.set_xlim(0, (1.1 + 0.2 * columns) * min(limit, max(wholes)))
     title = pipelines.scene_title([pipelines.Pipeline(row.first.scene, row.cells) for row in rows])
     title += " after the first" * (min(row.first.frame for row in rows) > first)
-    axes.set_title(textwrap.fill(title, TITLE), loc="left")
+    axes.set_title(textwrap.fill(title, TITLE[columns]), loc="left")
     return {(name, colour) for parts in drawn for name, colour, _ in parts}
 
 
 def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda row: ranking_text.label(row.first),
-         remarks: Sequence[str] = ()) -> plt.Figure:
+         remarks: Sequence[str] = (), columns: int = 1) -> plt.Figure:
     take = chosen(found.rows)
     scenes = [ranking_text.shown_of(rows, MOST_MORE, take) for rows in found.scenes.values()][:MOST_SCENES]
-    heights = [len(rows) + 2.2 for rows in scenes]
-    drawing, grid = figure.grid(len(scenes), 1, pipelines.ROW * sum(heights) + 0.9, height_ratios=heights)
+    drawing, panels = figure.stacked([len(rows) + 2.2 for rows in scenes], ROW[columns], 0.9, columns)
     first = {scene: min(cell.frame for cell in cells) for scene, cells in grouped(run.all_cells, lambda cell: cell.scene).items()}
-    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label, first[rows[0].first.scene], take)
-                          for axes, rows in zip(grid[:, 0], scenes, strict=True)))
-    grid[-1, 0].set_xlabel("megabytes" if found.objective == "memory" else f"milliseconds {ranking_text.UNIT[found.objective]}")
+    there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label, first[rows[0].first.scene], take, columns)
+                          for axes, rows in zip(panels, scenes, strict=True)))
+    for axes in panels[-columns:]:
+        axes.set_xlabel("megabytes" if found.objective == "memory" else f"milliseconds {ranking_text.UNIT[found.objective]}")
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
         [*((name, colour) for colour, name in PARTS.items()), REST]
     stages = {stage for rows in scenes for row in rows for cell in row.cells for stage in cell.samples[0]}

@@ -16,10 +16,19 @@ def label(row: ranking.Row) -> str:
     return pipeline if pipeline.startswith(family.lower()) else f"{family}: {pipeline}"
 
 
+def short_label(row: ranking.Row) -> str:
+    """Returns the own name of a library's method, or else the family, so that two panels fit beside each other."""
+    return ranking_text.label(row.first) if row.first.outside else ranking_text.family(row)
+
+
 def draw(experiment: str, run: results.Run) -> figure.plt.Figure:
     found = ranking.ranked(run.frames(experiment), trusts_stages=True)
     firsts = {scene: ranking_text.best_of_families(rows) for scene, rows in found.scenes.items()}
-    return best_bars.draw(run, dataclasses.replace(found, scenes=firsts, rows=[]), label, (REMARKS[experiment],))
+    found = dataclasses.replace(found, scenes=firsts, rows=[])
+    if experiment == families.EXPERIMENT:
+        return best_bars.draw(run, found, label, (REMARKS[experiment],))
+    ours = dict.fromkeys(label(row) for rows in firsts.values() for row in rows if not row.first.outside)
+    return best_bars.draw(run, found, short_label, (REMARKS[experiment], f"Ours: {'; '.join(ours)}."), columns=2)
 
 
 FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, name) for name in REMARKS}

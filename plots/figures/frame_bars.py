@@ -72,13 +72,7 @@ def panels_for(scenes: dict[str, list[pipelines.Pipeline]]) -> tuple[plt.Figure,
     shown = list(scenes.values())
     same = all(pipelines.labels(one) == pipelines.labels(shown[0]) for one in shown)
     columns = 2 if same and len(shown) > IN_ONE_COLUMN else 1
-    rows = [max(len(one) for one in shown[first:first + columns]) + 2.2 + 0.6 * columns
-            for first in range(0, len(shown), columns)]
-    drawing, panels = figure.grid(len(rows), columns, pipelines.ROW * sum(rows) + 0.9, height_ratios=rows)
-    flat = list(panels.flat)
-    for axes in flat[len(shown):]:
-        axes.set_visible(False)
-    return drawing, flat[:len(shown)], columns
+    return *figure.stacked([len(one) + 2.2 + 0.6 * columns for one in shown], pipelines.ROW, 0.9, columns), columns
 
 
 def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> plt.Figure:

@@ -32,13 +32,12 @@ def draw(run: results.Run) -> figure.plt.Figure:
     panels = list(bars_of(run).items())
     left_out = [counted(len(panels) - MOST_SCENES, "more scene") + " not drawn."] if len(panels) > MOST_SCENES else []
     panels = panels[:MOST_SCENES]
-    rows = [min(len(bars), MOST_BARS) + 2.6 for _, bars in panels]
-    drawing, grid = figure.grid(len(panels), 1, ROW * sum(rows) + 0.5, height_ratios=rows)
-    for axes, (key, bars) in zip(grid.flat, panels, strict=True):
+    drawing, stack = figure.stacked([min(len(bars), MOST_BARS) + 2.6 for _, bars in panels], ROW, 0.5)
+    for axes, (key, bars) in zip(stack, panels, strict=True):
         draw_panel(axes, *key, bars[:MOST_BARS])
         left_out += [f"{key[1]}: {len(bars) - MOST_BARS} slower ones not drawn."] if len(bars) > MOST_BARS else []
     clock = " by the wall clock" if is_by_wall(cell for _, bars in panels for _, _, cell in bars) else ""
-    grid.flat[-1].set_xlabel(f"milliseconds{clock}")
+    stack[-1].set_xlabel(f"milliseconds{clock}")
     figure.footer(drawing, run, panels[0][0][0], ("Medians of the samples; of several frames the mean of those after the first.", *left_out))
     return drawing
 

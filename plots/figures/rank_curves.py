@@ -99,14 +99,6 @@ def draw_halo(runs: list[dict[str, Any]]) -> plt.Figure:
     return drawing
 
 
-def draw_each(runs: list[dict[str, Any]]) -> plt.Figure:
-    """Draws the stages of cells of `cluster`."""
-    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH * 0.6, 2.8), layout="constrained")
-    draw_stages(axes, runs)
-    drawing.suptitle(f"{runs[0]['scene']['name']}, {runs[0]['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
-    return drawing
-
-
 def experiments_of(run: results.Run) -> dict[str, list[dict[str, Any]]]:
     """Returns the measured cells of several ranks by experiment."""
     experiments = grouped(rank_files.cells_of(run.document, str(run.path)), lambda cell: cell["experiment"])
@@ -140,9 +132,10 @@ def draw(_: results.Run, kind: str, runs: list[dict[str, Any]]) -> plt.Figure:
     if kind == "halo":
         return draw_halo(runs)
     if kind == "cluster":
-        return draw_each(runs)
-    drawing, [[left, right]] = figure.grid(1, 2, 2.8, width_ratios=(1, 1.4))
-    draw_curve(left, runs, kind == "weak")
+        drawing, right = plt.subplots(figsize=(style.PAGE_WIDTH * 0.6, 2.8), layout="constrained")
+    else:
+        drawing, [[left, right]] = figure.grid(1, 2, 2.8, width_ratios=(1, 1.4))
+        draw_curve(left, runs, kind == "weak")
     draw_stages(right, runs)
     drawing.suptitle(f"{runs[0]['scene']['name']}{' and as much on every rank' if kind == 'weak' else ''}, "
                      f"{runs[0]['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)

@@ -11,7 +11,7 @@ from ..read import results, savings
 from ..read.savings import Saving
 
 EXPERIMENT = "skips"
-ROW = 0.22  # inches for each rule
+ROW, HEAD = 0.14, 0.28  # inches for each rule, and for a scene's title
 
 
 def draw_scene(panels: list[plt.Axes], scene: list[Saving], rules: list[str], looks: dict[str, style.Look]) -> None:
@@ -34,7 +34,7 @@ def draw(run: results.Run) -> plt.Figure:
     looks = {name: style.VARIANT_LOOKS[place % len(style.VARIANT_LOOKS)] for place, name in enumerate(dict.fromkeys(one.pipeline for one in found))}
     scenes = results.grouped((one for one in found if one.skips_something), lambda one: one.first.scene)
     rows = {scene: sorted({one.rule for one in those}, key=savings.order) for scene, those in scenes.items()}
-    heights = [0.45 + ROW * len(of) for of in rows.values()]
+    heights = [HEAD + ROW * len(of) for of in rows.values()]
     drawing, grid = figure.grid(len(scenes), 2, 1.1 + sum(heights), width_ratios=(3, 2), height_ratios=heights, sharex="col", sharey="row")
     for panels, (scene, those) in zip(grid, scenes.items(), strict=True):
         draw_scene(list(panels), those, rows[scene], looks)

@@ -56,9 +56,8 @@ def title(steps: list[Step]) -> str:
 def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> plt.Figure:
     scenes = [[Step(group) for group in pipelines.grouped_by_pipeline(there, "pairs_of")]
               for there in results.grouped(cells, lambda cell: cell.scene).values()]
-    rows = [len(steps) for steps in scenes]
-    drawing, grid = figure.grid(len(rows), 1, 1.2 + 0.5 * len(rows) + ROW * sum(rows), height_ratios=[count + 1.5 for count in rows])
-    for axes, steps in zip(grid[:, 0], scenes, strict=True):
+    drawing, panels = figure.stacked([len(steps) + 1.5 for steps in scenes], ROW, 1.2)
+    for axes, steps in zip(panels, scenes, strict=True):
         for row, step in enumerate(steps):
             pairs = step.total("pairs_count") * 1e-6
             colour = pipelines.Pipeline(step.first.scene, step.cells).colour
@@ -69,7 +68,7 @@ def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> 
         axes.set_title(title(steps), loc="left", x=-0.4)
         axes.margins(x=0.08)
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
-    grid[-1, 0].set_xlabel("million pairs a second")
+    panels[-1].set_xlabel("million pairs a second")
     handles = [Patch(color="#555555", label="from two frames' vertices to pairs"),
                Patch(color="#555555", alpha=PALE, label="by the queries alone, trees given")]
     missed = sum(cell.counters.get("ground_truth_missed", 0) for cell in cells)

@@ -106,9 +106,10 @@ def page_of(kind: str, note: str, parts: list[Part], overview: list[Json], scene
                   html.json_blob(f"samples-{number}", part.samples)]
         sections.append(html.section(number, part.title, circumstances.sentence_of(part.document), part.warnings, part.answers))
     blobs += [html.blob(f"view-{number}-{name}", content) for number, (_, arrays) in enumerate(scenes) for name, content in arrays.items()]
-    title = f"bvhbench {kind}" + (f": {', '.join(titles[:4])}" if titles else "") + (f" and {len(titles) - 4} more" if titles[4:] else "")
-    said = html.findings([part.document["run"]["device"]["name"] for part in parts], [(part.title, part.answers) for part in parts])
-    return html.page(title, said, note, sections, blobs + html.libraries(bool(scenes)))
+    devices = [part.document["run"]["device"]["name"] for part in parts]
+    of = ", ".join(titles if len(titles) < 4 else [f"{len(titles)} results of {' and '.join(dict.fromkeys(devices))}"])
+    said = html.findings(devices, [(part.title, part.answers) for part in parts])
+    return html.page(f"bvhbench {kind}" + f": {of}" * bool(of), said, note, sections, blobs + html.libraries(bool(scenes)))
 
 
 def write(text: str, is_wrong: bool, out: pathlib.Path) -> int:
