@@ -8,6 +8,7 @@ from ._core import BadInput
 
 MOST = 2**32 - 1
 NOTICED = 1e-6  # a share of the diagonal
+NOTHING = {columns: np.empty((0, columns) if columns else 0, np.uint32) for columns in (0, 2, 3)}
 
 
 def points_of(given) -> np.ndarray:
@@ -42,6 +43,8 @@ def words_of(given: Iterable[int] | None, what: str) -> np.ndarray:
 
 def indices(given, columns: int, what: str) -> np.ndarray:
     """Returns integers from 0 to MOST as words of 32 bits: an array of that many columns, or of one dimension if `columns` is 0."""
+    if isinstance(given, tuple) and not given:  # as in most calls, which then take some microseconds less
+        return NOTHING[columns]
     array = np.asarray(given)
     if array.size == 0:
         array = array.astype(np.uint32)
