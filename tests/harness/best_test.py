@@ -14,7 +14,10 @@ NARROWED = ("--builders", "oibvh-multi,karras", "--orders", "morton30,hilbert30"
 
 
 def best(code: int, *words: str, **environment: str) -> str:
-    done = run("best", *words, **environment)
+    for more in ([], ["--force"], ["--force"]):
+        done = run("best", *words, *more, **environment)
+        if "\nno winner: " not in done.stdout:  # as it may be on a busy machine
+            break
     assert done.returncode == code, (words, done)
     return done.stdout
 

@@ -174,7 +174,8 @@ def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
     assert '<p class="warning">torus:200, frame 0: plain-microseconds: its stages take ' in page
     said = expect(0, "best", "torus:200", *slip, "--builders", "oibvh-multi", "--orders", "hilbert30", "--colliders",
                   "plain-microseconds,group", "--out", "raced.json")
-    assert "\ntake `group` over `oibvh-multi`" in said and re.search(warning, said), said
+    # On a busy machine too few samples may be without drift.
+    assert re.search("\n(take|no winner:) `group` over `oibvh-multi`", said) and re.search(warning, said), said
     # The race too goes by the wall clock: the slip does not drive all others out. Of `group` over the two kinds of leaves one may.
     raced = [cell for cell in valid("raced.json")["cells"] if "samples" in cell]
     slips = [cell for cell in raced if cell["collider"]["name"] == "plain-microseconds"]
