@@ -26,8 +26,8 @@ inline constexpr Parameter codes_group_size =
             {1, 1024, true}, {64, 128, 256, 512, 1024});
 
 inline constexpr Parameter sort_chunk_digit_bits =
-    usually(8, "sort.chunk_digit_bits", "sort", "bits a pass sorts by, in the form for few cores",
-            {1, 12}, {6, 7, 8, 9, 10, 11});
+    usually(10, "sort.chunk_digit_bits", "sort",
+            "bits of the highest digit, in the form for few cores", {1, 12}, {6, 7, 8, 9, 10, 11});
 inline constexpr Parameter sort_group_size =
     usually(256, "sort.group_size", "sort",
             "work-items in a group, where groups do not wait for each other", {16, 256, true},

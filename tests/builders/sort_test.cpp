@@ -176,7 +176,11 @@ INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
                                  cases.push_back({"sweeps", bits, sweeping(2)});
                                  cases.push_back({"words", bits, sweeping(2), false});
                                  cases.push_back({"at_once", bits, at_once(6)});
-                                 cases.push_back({"chunks", bits, {KernelForm::chunks, 16, 3}});
+                                 SortShape chunks{KernelForm::chunks, 16, 3};
+                                 cases.push_back({"chunks", bits, chunks});
+                                 chunks.few_pairs = 0;
+                                 chunks.large_bucket = 1;
+                                 cases.push_back({"buckets", bits, chunks});
                              }
                              return cases;
                          }()),

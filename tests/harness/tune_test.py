@@ -38,7 +38,7 @@ def test_tune_searches_checks_and_writes_what_is_then_used():
 
 
 def test_tuned_values_are_used_named_and_turned_off():
-    path = tuned_file("mine", sort__chunk_digit_bits=11, chunks__per_core=2)
+    path = tuned_file("mine", sort__chunk_digit_bits=7, chunks__per_core=2)
     build = ("build", "--builder", "oibvh-multi", "--scene", "soup:3000", "--samples", "1", "--json", "t.json", "--force")
 
     def launches(*words: str, **environment: str) -> tuple[int, dict]:
@@ -47,15 +47,15 @@ def test_tuned_values_are_used_named_and_turned_off():
         stages = result["cells"][0]["samples"][0]["stages"]
         return next(s["launches"] for s in stages if s["stage"] == "sort"), result["run"]["tuning"]
 
-    values = {"chunks.per_core": 2, "sort.chunk_digit_bits": 11}
-    assert launches("--tuning", "mine") == (9, {"from": str(path), "values": values})
-    assert launches(BVHBENCH_TUNING="mine") == (9, {"from": str(path), "values": values})
-    none = (12, {"from": "none", "values": {}})
+    values = {"chunks.per_core": 2, "sort.chunk_digit_bits": 7}
+    assert launches("--tuning", "mine") == (12, {"from": str(path), "values": values})
+    assert launches(BVHBENCH_TUNING="mine") == (12, {"from": str(path), "values": values})
+    none = (9, {"from": "none", "values": {}})
     assert launches("--tuning", "", BVHBENCH_TUNING="mine") == none
     assert launches(BVHBENCH_TUNING="") == none
     shown = expect(0, "list", "tuning", "--tuning", "mine")
     row = next(line for line in shown.splitlines() if line.startswith("sort.chunk_digit_bits "))
-    assert row.split()[1:3] == ["11", str(path)], row
+    assert row.split()[1:3] == ["7", str(path)], row
     rest = [line.split()[2] for line in shown.splitlines() if line.split()[0] not in values]
     assert set(rest) == {"default"} and len(rest) > 20, rest
     expect(0, *build, "--tuning", "mine", says="tuned by mine/")

@@ -12,6 +12,12 @@ namespace {
 constexpr auto groups_path = "builders/stages/sort/sort_groups.cl";
 constexpr auto chunks_path = "builders/stages/sort/sort_chunks.cl";
 
+/// Most bits of the lower digits of chunks: a table of them fits the nearest cache.
+constexpr uint most_bucket_digit_bits = 11;
+
+/// Pairs for each work-item that sorts buckets.
+constexpr uint pairs_per_item = 256;
+
 /// Pairs of a work-item in one launch: as many as leave a tile of 512 work-items within 32 KiB of local memory.
 constexpr uint keys_at_once = 16;
 
@@ -65,16 +71,27 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
         scan_ = kernel("scan_digits");
         scatter_ = kernel("scatter_tiles");
     } else {
+        digit_bits_ = std::min(shape.chunk_digit_bits, code_bits);
         const auto kernel = [&](const char* name) {
             return programs.kernel(chunks_path, name,
-                                   {{"DIGIT_BITS", shape.chunk_digit_bits}, {"CODE_WORDS", words}});
+                                   {{"DIGIT_BITS", digit_bits_},
+                                    {"BUCKET_DIGIT_BITS", most_bucket_digit_bits},
+                                    {"CODE_WORDS", words}});
         };
-        digit_bits_ = shape.chunk_digit_bits;
         count_ = kernel("count_chunks");
         scan_ = kernel("scan_chunks");
         scatter_ = kernel("scatter_chunks");
+        buckets_ = kernel("sort_buckets");
     }
-    passes_ = divided_up(code_bits, digit_bits_);
+    passes_ = shape_.form == KernelForm::groups
+                  ? divided_up(code_bits, digit_bits_)
+                  : 1 + divided_up(code_bits - digit_bits_, most_bucket_digit_bits);
+}
+
+/// Returns the bits of each lower digit of chunks.
+uint RadixSort::bucket_digit_bits() const
+{
+    return passes_ > 1 ? divided_up(code_bits_ - digit_bits_, passes_ - 1) : 0;
 }
 
 /// Returns the number of tiles or chunks that the pairs are divided into.
@@ -90,7 +107,6 @@ void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
 {
     size_ = size;
     const std::size_t words = size * code_words(code_bits_);
-    const std::size_t digits = std::size_t{1} << digit_bits_;
     if (waiting_)
         waiting_->plan(arena, size, keeps_codes);
     moves_words_ = waiting_ && waiting_->sorts_words();
@@ -106,8 +122,13 @@ void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
         codes = arena.take<uint>(words, Use::scratch);
     if (waiting_)
         return;
+    const std::size_t digits = std::size_t{1} << std::max(digit_bits_, bucket_digit_bits());
     counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
-    totals_ = arena.take<uint>(digits, Use::scratch);
+    totals_ = arena.take<uint>(shape_.form == KernelForm::groups ? digits : 0, Use::scratch);
+    const bool has_buckets = shape_.form == KernelForm::chunks && passes_ > 1;
+    largest_ = arena.take<uint>(shape_.form == KernelForm::chunks ? 2 : 0, Use::scratch);
+    more_counts_ = arena.take<uint>(
+        has_buckets ? (std::size_t{1} << bucket_digit_bits()) * run_count(size) : 0, Use::scratch);
 }
 
 void RadixSort::prepare(const cl::CommandQueue& queue)
@@ -152,6 +173,11 @@ void RadixSort::enqueue_passes(Queue& queue, uint count, const std::array<Buffer
         waiting_->enqueue(codes, result, other, count, is_counted, queue);
         return;
     }
+    if (shape_.form == KernelForm::chunks) {
+        const bool is_odd = passes_ % 2 == 1;
+        enqueue_chunks(queue, count, is_odd ? result : other, is_odd ? other : result);
+        return;
+    }
     for (uint pass = 0; pass < passes_; ++pass) {
         const bool to_result = (passes_ - pass) % 2 == 1;
         enqueue_pass(queue, pass, count, to_result ? other : result, to_result ? result : other);
@@ -176,22 +202,62 @@ void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<u
         bytes(2 * words + (2 - is_first) * std::size_t{count} + table);
 
     set_arguments(count_, codes_in, counts_, count, shift, mask);
-    if (shape_.form == KernelForm::groups) {
-        set_arguments(scan_, counts_, totals_, runs);
-        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, totals_, count,
-                      shift, mask, is_first);
-        const std::size_t group = shape_.group_size;
-        queue.launch(count_, runs * group, group, count_bytes);
-        queue.launch(scan_, (mask + 1) * group, group, scan_bytes);
-        queue.launch(scatter_, runs * group, group, scatter_bytes);
-    } else {
-        set_arguments(scan_, counts_, static_cast<uint>(table));
-        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, count, shift, mask,
-                      is_first);
-        queue.launch(count_, runs, 1, count_bytes);
-        queue.launch(scan_, 1, 1, scan_bytes);
-        queue.launch(scatter_, runs, 1, scatter_bytes);
+    set_arguments(scan_, counts_, totals_, runs);
+    set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, totals_, count, shift,
+                  mask, is_first);
+    const std::size_t group = shape_.group_size;
+    queue.launch(count_, runs * group, group, count_bytes);
+    queue.launch(scan_, (mask + 1) * group, group, scan_bytes);
+    queue.launch(scatter_, runs * group, group, scatter_bytes);
+}
+
+/// Enqueues the sort in chunks. The first pass moves pairs to `ids`, and each pass from one of the two to the other.
+void RadixSort::enqueue_chunks(Queue& queue, uint count, const Buffer<uint>& ids,
+                               const Buffer<uint>& other_ids)
+{
+    if (count <= shape_.few_pairs) {
+        const uint bits = divided_up(code_bits_, passes_);
+        for (uint pass = 0; pass < passes_; ++pass)
+            enqueue_move(queue, count, pass, pass * bits, bits, Moved::all,
+                         pass % 2 == 0 ? other_ids : ids, pass % 2 == 0 ? ids : other_ids);
+        return;
     }
+    enqueue_move(queue, count, 0, code_bits_ - digit_bits_, digit_bits_, Moved::all, other_ids,
+                 ids);
+    if (passes_ == 1)
+        return;
+    const uint bits = bucket_digit_bits();
+    enqueue_move(queue, count, 1, (passes_ - 2) * bits, bits, Moved::largest_bucket, ids,
+                 other_ids);
+    const uint mask = (1u << digit_bits_) - 1, more_mask = (1u << bits) - 1;
+    set_arguments(buckets_, codes_[1], ids, codes_[0], other_ids, counts_, more_counts_, largest_,
+                  count, mask, more_mask, passes_ - 1, bits);
+    const std::size_t words = std::size_t{count} * (code_words(code_bits_) + 1);
+    queue.launch(buckets_,
+                 std::min(std::max(mask, more_mask) + 1, divided_up(count, pairs_per_item)), 1,
+                 bytes(2 * words));
+}
+
+/// Enqueues a move of all pairs, or of those of the largest bucket, by the digit of `bits` bits from `shift` on.
+void RadixSort::enqueue_move(Queue& queue, uint count, uint pass, uint shift, uint bits,
+                             Moved moved, const Buffer<uint>& ids_in, const Buffer<uint>& ids_out)
+{
+    const uint runs = run_count(count);
+    const uint mask = (1u << bits) - 1, is_second = moved == Moved::largest_bucket ? 1 : 0;
+    const uint most = std::max(shape_.large_bucket, 2 * divided_up(count, runs));
+    const Buffer<uint>& counts = is_second != 0 ? more_counts_ : counts_;
+    const Buffer<uint>& codes_in = codes_[pass % 2];
+    const Buffer<uint>& codes_out = codes_[(pass + 1) % 2];
+    set_arguments(count_, codes_in, counts, largest_, count, shift, mask, is_second);
+    set_arguments(scan_, counts, largest_, runs, mask, most, is_second);
+    set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts, largest_, count, shift,
+                  mask, is_second, pass == 0 ? 1u : 0u);
+    const std::size_t table = (std::size_t{mask} + 1) * runs;
+    const std::size_t pairs = is_second != 0 ? 0 : count;  // of the largest bucket: unknown
+    const std::size_t words = pairs * code_words(code_bits_);
+    queue.launch(count_, runs, 1, bytes(words + table));
+    queue.launch(scan_, 1, 1, bytes(2 * table));
+    queue.launch(scatter_, runs, 1, bytes(2 * words + (pass == 0 ? 1 : 2) * pairs + table));
 }
 
 }  // namespace bvhbench

@@ -17,8 +17,12 @@ struct SortShape {
     uint group_size = 256;
     /// Groups that do not wait: pairs per work-item, odd and at most 15. A tile has group_size * keys_per_item pairs.
     uint keys_per_item = 15;
-    /// Chunks only: most bits per pass.
-    uint chunk_digit_bits = 8;
+    /// Chunks only: bits of the highest digit, which moves pairs to buckets (sort_chunks.cl).
+    uint chunk_digit_bits = 10;
+    /// Chunks only: most pairs that are moved by each digit, the lowest first.
+    uint few_pairs = 1u << 18;
+    /// Chunks only: pairs above which the largest bucket is split once more.
+    uint large_bucket = 1u << 14;
     /// Groups only: whether groups wait for each other, so that a pass is one launch; and their parameters if they do.
     enum class Sweeps { of_device, never, always } sweeps = Sweeps::of_device;
     uint sweep_group_size = 512;
@@ -31,8 +35,8 @@ struct SortShape {
 /// Returns the tuned parameters of `device`.
 SortShape sort_shape(const Device& device, KernelForm form = KernelForm::of_device);
 
-/// Stage `sort`: a stable least-significant-digit radix sort of (code, id) pairs by the bits that codes have. Ids start as 0,
-/// 1, 2, ..., so pairs with equal codes keep their order.
+/// Stage `sort`: a stable radix sort of (code, id) pairs by the bits that codes have, by the lowest digit first, or in chunks by the
+/// highest and then the lowest. Ids start as 0, 1, 2, ..., so pairs with equal codes keep their order.
 class RadixSort {
 public:
     RadixSort(Programs& programs, unsigned code_bits, SortShape shape = {});
@@ -97,13 +101,21 @@ private:
                         const Buffer<uint>& result, bool is_counted);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
                       const Buffer<uint>& ids_out);
+    void enqueue_chunks(Queue& queue, uint count, const Buffer<uint>& ids,
+                        const Buffer<uint>& other_ids);
+    enum class Moved { all, largest_bucket };
+    void enqueue_move(Queue& queue, uint count, uint pass, uint shift, uint bits, Moved moved,
+                      const Buffer<uint>& ids_in, const Buffer<uint>& ids_out);
+    uint bucket_digit_bits() const;
 
     SortShape shape_;
     uint code_bits_;
-    uint digit_bits_;  ///< Of every pass; the last one may have fewer.
+    uint
+        digit_bits_;  ///< Of every pass of groups, the last one may have fewer; of the highest digit of chunks.
     uint passes_;
     std::size_t chunks_;
     cl::Kernel count_, scan_, scatter_;   ///< If groups do not wait.
+    cl::Kernel buckets_;                  ///< Chunks only.
     std::optional<WaitingSort> waiting_;  ///< If groups wait.
     std::size_t size_ = 0;
     /// True if passes move words of 64 bits. Then codes_ and ids_ are the same two buffers, with room for such words.
@@ -111,8 +123,10 @@ private:
     std::array<Buffer<uint>, 2> codes_;  ///< Pass p reads codes_[p % 2] and writes the other.
     std::array<Buffer<uint>, 2> ids_;    ///< Pass p reads one and writes the other.
     Buffer<uint> aside_;
-    Buffer<uint> counts_;  ///< A row per digit, a column per tile or chunk.
-    Buffer<uint> totals_;  ///< Groups only: one per digit.
+    Buffer<uint> counts_;       ///< A row per digit, a column per tile; or a row per chunk.
+    Buffer<uint> totals_;       ///< Groups only: one per digit.
+    Buffer<uint> more_counts_;  ///< Chunks only: of the largest bucket.
+    Buffer<uint> largest_;      ///< Chunks only: the largest bucket's first pair and end.
 };
 
 }  // namespace bvhbench
