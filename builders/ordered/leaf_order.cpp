@@ -50,8 +50,6 @@ void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool 
         ids_ = sort_->ids();
         plan_at_once();
     }
-    if (blocks_)
-        blocks_->plan(arena, primitives);
     positions_ = arena.take<uint>(blocks_ && reads_codes ? primitives : 0, Use::scratch);
 }
 
@@ -86,7 +84,7 @@ void LeafOrder::enqueue(const Input& input, Queue& queue)
     if (!in_one_launch)
         queue.begin("order");
     if (cells_)
-        cells_->enqueue(boxes(), bounds(), ids_, blocks_->scratch(), queue);
+        cells_->enqueue(boxes(), bounds(), ids_, queue);
     blocks_->enqueue(boxes(), ids_, queue);
     number_->enqueue(positions_, queue);
 }

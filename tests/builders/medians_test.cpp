@@ -51,7 +51,6 @@ private:
                               const Buffer<uint>& ids, std::vector<uint> expected)
     {
         BlockMedians medians(bench().programs, GetParam().shape);
-        reserve([&](Arena& arena) { medians.plan(arena, boxes.size()); });
         bench().queue.begin("order");
         medians.enqueue(device_boxes, ids, bench().queue);
         bench().queue.finish();
@@ -64,17 +63,13 @@ private:
     {
         const Buffer<Bounds> bounds = on_device(std::vector<Bounds>{host_bounds(boxes)});
         CellMedians medians(bench().programs, GetParam().shape);
-        BlockMedians blocks(bench().programs, GetParam().shape);
-        reserve([&](Arena& arena) {
-            medians.plan(arena, boxes.size());
-            blocks.plan(arena, boxes.size());
-        });
+        reserve([&](Arena& arena) { medians.plan(arena, boxes.size()); });
         std::vector<uint> expected(boxes.size());
         std::iota(expected.begin(), expected.end(), 0u);
         host_cell_medians(boxes, expected, GetParam().shape.block_height);
         for (int repeat = 0; repeat < 2; ++repeat) {
             bench().queue.begin("order");
-            medians.enqueue(device_boxes, bounds, ids, blocks.scratch(), bench().queue);
+            medians.enqueue(device_boxes, bounds, ids, bench().queue);
             bench().queue.finish();
             ASSERT_EQ(with_sorted_blocks(from_device(ids)), with_sorted_blocks(expected));
         }

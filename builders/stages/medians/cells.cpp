@@ -88,6 +88,9 @@ void CellMedians::plan(Arena& arena, std::size_t size)
     levels_ = root_height_ - std::min(root_height_, shape_.block_height);
     cells_ = arena.take<Aabb>(first_node(levels_ + (shape_.form == KernelForm::chunks ? 1 : 0)),
                               Use::scratch);
+    const std::size_t leaves = shape_.form == KernelForm::chunks && levels_ > 0 ? size : 0;
+    even_ = arena.take<Leaf>(leaves, Use::scratch);
+    odd_ = arena.take<Leaf>(leaves, Use::scratch);
     if (shape_.form == KernelForm::chunks || levels_ == 0)
         return;
     lists_ = arena.take<ulong>(size, Use::scratch);
@@ -104,12 +107,12 @@ void CellMedians::plan(Arena& arena, std::size_t size)
 }
 
 void CellMedians::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
-                          const Buffer<uint>& ids, const MedianLeaves& scratch, Queue& queue)
+                          const Buffer<uint>& ids, Queue& queue)
 {
     if (levels_ == 0)
         number_.enqueue(ids, queue);
     else if (shape_.form == KernelForm::chunks)
-        in_chunks(boxes, bounds, ids, scratch, queue);
+        in_chunks(boxes, bounds, ids, queue);
     else
         in_groups(boxes, bounds, ids, queue);
 }
@@ -163,20 +166,19 @@ void CellMedians::enqueue_halve(const Buffer<uint>& ids, uint level, Queue& queu
 
 /// Splits the first levels in one launch each, because they have few nodes; then one launch with a subtree per work-item.
 void CellMedians::in_chunks(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
-                            const Buffer<uint>& ids, const MedianLeaves& scratch, Queue& queue)
+                            const Buffer<uint>& ids, Queue& queue)
 {
     constexpr uint group_size = 256;
     const auto count = static_cast<uint>(size_);
-    set_arguments(number_leaves_, boxes, scratch.even, count);
+    set_arguments(number_leaves_, boxes, even_, count);
     queue.launch(number_leaves_, std::size_t{divided_up(count, group_size)} * group_size,
-                 group_size, bytes(boxes.bytes() + scratch.even.bytes()));
+                 group_size, bytes(boxes.bytes() + even_.bytes()));
     for (uint level = 0; level < levels_; ++level) {
         const bool is_last = level + 1 == levels_ || level >= chunk_levels;
         const uint bottom = is_last ? shape_.block_height + 1 : root_height_ - level;
-        set_arguments(halve_, bounds, level % 2 == 0 ? scratch.even : scratch.odd,
-                      level % 2 == 0 ? scratch.odd : scratch.even, cells_, ids, count, root_height_,
-                      level, bottom, is_last ? 1u : 0u);
-        queue.launch(halve_, nodes_on(level), 1, bytes(2 * scratch.even.bytes() + ids.bytes()));
+        set_arguments(halve_, bounds, level % 2 == 0 ? even_ : odd_, level % 2 == 0 ? odd_ : even_,
+                      cells_, ids, count, root_height_, level, bottom, is_last ? 1u : 0u);
+        queue.launch(halve_, nodes_on(level), 1, bytes(2 * even_.bytes() + ids.bytes()));
         if (is_last)
             break;
     }

@@ -13,6 +13,13 @@
 
 namespace bvhbench {
 
+/// A leaf as the kernels in `chunks` move it; a uint4 on the device.
+struct Leaf {
+    Point centre;
+    uint id;
+};
+static_assert(sizeof(Leaf) == 16);
+
 /// Splits all leaves at exact medians, level by level from the root of an implicit tree, down to aligned blocks of
 /// 2^block_height leaves. Within a block the order of ids is unspecified.
 ///
@@ -27,16 +34,15 @@ public:
     /// Takes scratch memory for `size` leaves.
     void plan(Arena& arena, std::size_t size);
 
-    /// Enqueues the splits within the current stage; writes the ids of all leaves to `ids`. `chunks` overwrites `scratch`, which the
-    /// blocks use afterwards. Does not block.
+    /// Enqueues the splits within the current stage; writes the ids of all leaves to `ids`. Does not block.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
-                 const MedianLeaves& scratch, Queue& queue);
+                 Queue& queue);
 
 private:
     void in_groups(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
                    Queue& queue);
     void in_chunks(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
-                   const MedianLeaves& scratch, Queue& queue);
+                   Queue& queue);
     void enqueue_halve(const Buffer<uint>& ids, uint level, Queue& queue);
     uint nodes_on(uint level) const;
     uint slabs_on(uint level) const;
@@ -51,6 +57,8 @@ private:
     cl::Kernel number_leaves_, clear_, first_pass_, local_pass_, pass_, last_pass_, halve_,
         halve_small_;
     Buffer<Aabb> cells_;  ///< Of the nodes above blocks, level by level.
+    Buffer<Leaf> even_,
+        odd_;  ///< For `chunks` only: each level of the splits reads one and writes the other.
     // The others are for `groups` only.
     Buffer<CellCut> cuts_;  ///< One per node above blocks.
     Buffer<uint> lefts_;    ///< Per such node: entries of its list that go left.

@@ -26,32 +26,14 @@ struct MedianShape {
 /// Returns the tuned parameters of `device`.
 MedianShape median_shape(const Device& device, KernelForm form = KernelForm::of_device);
 
-/// A leaf as the kernels in `chunks` move it; a uint4 on the device.
-struct Leaf {
-    Point centre;
-    uint id;
-};
-static_assert(sizeof(Leaf) == 16);
-
-/// Two copies of the leaves, for `chunks` only: each level of the splits reads one and writes the other.
-struct MedianLeaves {
-    Buffer<Leaf> even, odd;
-};
-
 /// Puts every aligned block of 2^block_height leaves into the order of exact median splits.
 ///
 /// Blocks are subtrees of an implicit tree. A node at height h above the leaves sends its first 2^(h - 1) leaves left (or all,
 /// if it has no more), sorted by centre along the axis of the cheapest split, ties by id (geometry/split.h). No leaf changes
-/// its block.
+/// its block. Owns no memory.
 class BlockMedians {
 public:
     explicit BlockMedians(Programs& programs, MedianShape shape = {});
-
-    /// Takes scratch memory for `size` leaves.
-    void plan(Arena& arena, std::size_t size);
-
-    /// Returns the scratch memory of leaves.
-    const MedianLeaves& scratch() const { return leaves_; }
 
     /// Enqueues the reordering of `ids` in place, within the current stage. Does not block.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, Queue& queue);
@@ -59,7 +41,6 @@ public:
 private:
     MedianShape shape_;
     cl::Kernel kernel_;
-    MedianLeaves leaves_;
 };
 
 /// Fills an array with 0, 1, 2, ... Owns no memory.

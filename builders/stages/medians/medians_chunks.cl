@@ -1,183 +1,146 @@
 // SPDX-License-Identifier: MIT
+// check: -DBLOCK_HEIGHT=10u
 //
-// Splits the leaves of blocks by cost, one block per work-item: the form of medians_groups.cl for devices with a few fast cores.
-// Nodes are split in preorder. Up to FEW leaves are sorted along each axis once, because splitting a list preserves its order.
-#include "builders/stages/medians/halve.clh"
+// Splits the leaves of blocks by cost, one block per work-item: the form of medians_groups.cl for devices with a few fast cores. All of
+// a block fits the nearest cache. Its leaves are sorted along each axis once, because splitting a list preserves its order.
+#include "geometry/box_words.clh"
 #include "geometry/grid.h"
+#include "geometry/split.h"
 
-#define BLOCK_SLABS 128u  // of a node in a block
-#define FEW_HEIGHT 4u
-#define FEW (1u << FEW_HEIGHT)  // leaves that are compared with each other
+#define BLOCK (1u << BLOCK_HEIGHT)  // leaves
+#define DIGIT_BITS 8u
+#define DIGITS (1u << DIGIT_BITS)
+#define PASSES (32u / DIGIT_BITS)
 
-/// Returns the box around the centres of some leaves. The fourth lane holds ids and is not used.
-static inline Aabb box_of(global const uint4* leaves, const uint count)
+/// Sorts the numbers of `count` leaves by their keys. Equal keys keep their order. Digits that all keys share are left out.
+static inline void sort_list(const uint* const keys, ushort* const list, const uint count)
 {
-    float4 low = (float4)(INFINITY);
-    float4 high = -low;
-    for (uint k = 0u; k < count; ++k) {
-        low = fmin(low, as_float4(leaves[k]));
-        high = fmax(high, as_float4(leaves[k]));
-    }
-    const Aabb box = {low.x, low.y, low.z, high.x, high.y, high.z};
-    return box;
-}
-
-/// Splits the `count` leaves of a node in a block along an axis, where `box` holds their centres.
-static inline void halve_along(global const uint4* from, global uint4* to, const Aabb box,
-                               const uint axis, const uint count, const uint left,
-                               uint* const slab_counts)
-{
-    const uint slabs = min(count, BLOCK_SLABS);
-    CellCut cut;
-    cut.axis = axis;
-    cut.low = low_side(box, axis);
-    cut.slabs_per_unit = (float)slabs / (high_side(box, axis) - cut.low);
-    cut.slab = 0u;
-    halve(from, to, cut, slabs, count, left, slab_counts);
-}
-
-/// Returns the cost of some leaves as a half of a node.
-static inline float cost_of(global const uint4* leaves, const uint count, const float scale)
-{
-    const Aabb box = box_of(leaves, count);
-    return cost_of_half(box.max_x - box.min_x, box.max_y - box.min_y, box.max_z - box.min_z, scale,
-                        count);
-}
-
-/// Splits the `count` leaves of a node in a block by cost.
-static inline void halve_by_cost(global const uint4* from, global uint4* to, const uint count,
-                                 const uint height, const float scale, uint* const slab_counts)
-{
-    const uint left = left_count(count, height);
-    if (left == count) {
-        copy_leaves(from, to, count);
-        return;
-    }
-    const Aabb box = box_of(from, count);
-    float costs[3];
-    for (uint axis = 0u; axis < 3u; ++axis) {
-        halve_along(from, to, box, axis, count, left, slab_counts);
-        const float left_cost = cost_of(to, left, scale);
-        costs[axis] = left_cost + cost_of(to + left, count - left, scale);
-    }
-    const uint axis = cheapest_axis(costs[0], costs[1], costs[2]);
-    if (axis != 2u)
-        halve_along(from, to, box, axis, count, left, slab_counts);
-}
-
-/// Writes the list of each axis: the numbers of the FEW leaves, sorted along it. One vector comparison compares all leaves with one.
-static inline void sort_few(const float16* const at, const uint16 ids, uint* const lists)
-{
-    int16 places[3] = {0, 0, 0};
-    for (uint other = 0u; other < FEW; ++other) {
-        const int16 is_later = ((const uint*)&ids)[other] < ids;
-        for (uint axis = 0u; axis < 3u; ++axis) {
-            const float there = ((const float*)&at[axis])[other];
-            places[axis] -= (there < at[axis]) | ((there == at[axis]) & is_later);
+    uint places[PASSES][DIGITS] = {{0u}};
+    for (uint k = 0u; k < count; ++k)
+        for (uint pass = 0u; pass < PASSES; ++pass)
+            ++places[pass][keys[k] >> pass * DIGIT_BITS & (DIGITS - 1u)];
+    for (uint pass = 0u; pass < PASSES; ++pass) {
+        const uint shift = pass * DIGIT_BITS;
+        if (places[pass][keys[0] >> shift & (DIGITS - 1u)] == count)
+            continue;
+        for (uint digit = 0u, before = 0u; digit < DIGITS; ++digit) {
+            const uint own = places[pass][digit];
+            places[pass][digit] = before;
+            before += own;
         }
+        ushort moved[BLOCK];
+        for (uint k = 0u; k < count; ++k)
+            moved[places[pass][keys[list[k]] >> shift & (DIGITS - 1u)]++] = list[k];
+        for (uint k = 0u; k < count; ++k)
+            list[k] = moved[k];
     }
-    for (uint axis = 0u; axis < 3u; ++axis)
-        for (uint k = 0u; k < FEW; ++k)
-            lists[axis * FEW + (uint)((const int*)&places[axis])[k]] = k;
 }
 
-/// Returns the cost of the leaves at places `first` to `end` - 1 of a list, as a half of a node. Fourth lanes hold ids.
-static inline float cost_of_few(const float4* const centres, const uint* const list,
-                                const uint first, const uint end, const float scale)
+/// One instruction each, unlike fmin and fmax, which allow NaN.
+static inline float4 smaller(const float4 a, const float4 b) { return a < b ? a : b; }
+static inline float4 larger(const float4 a, const float4 b) { return a > b ? a : b; }
+
+static inline float cost_of(const float4 low, const float4 high, const float scale,
+                            const uint count)
 {
-    float4 low = centres[list[first]];
-    float4 high = low;
-    for (uint k = first + 1u; k < end; ++k) {
-        low = fmin(low, centres[list[k]]);
-        high = fmax(high, centres[list[k]]);
-    }
     const float4 sides = high - low;
-    return cost_of_half(sides.x, sides.y, sides.z, scale, end - first);
+    return cost_of_half(sides.x, sides.y, sides.z, scale, count);
 }
 
-/// Splits the leaves at places `first` to `first` + `count` - 1 of the lists by cost: in each list, those that go left come first.
-static inline void halve_few(const float4* const centres, uint* const lists, const uint first,
-                             const uint count, const uint height, const float scale)
+/// Returns, of each list, the cost of leaves `first` to `end` - 1 as a half of a node. Fourth lanes are not used.
+static inline float4 costs_of(const float4* const centres, ushort lists[3][BLOCK], const uint first,
+                              const uint end, const float scale)
+{
+    float4 x_low = centres[lists[0][first]], y_low = centres[lists[1][first]];
+    float4 z_low = centres[lists[2][first]];
+    float4 x_high = x_low, y_high = y_low, z_high = z_low;
+    for (uint k = first + 1u; k < end; ++k) {
+        const float4 x = centres[lists[0][k]], y = centres[lists[1][k]], z = centres[lists[2][k]];
+        x_low = smaller(x_low, x);
+        x_high = larger(x_high, x);
+        y_low = smaller(y_low, y);
+        y_high = larger(y_high, y);
+        z_low = smaller(z_low, z);
+        z_high = larger(z_high, z);
+    }
+    const uint count = end - first;
+    return (float4)(cost_of(x_low, x_high, scale, count), cost_of(y_low, y_high, scale, count),
+                    cost_of(z_low, z_high, scale, count), 0.0f);
+}
+
+/// Moves leaves `first` to `end` - 1 of a list: those that are not `right` come first.
+static inline void part_list(ushort* const list, const uchar* const right, const uint first,
+                             const uint end)
+{
+    ushort moved[BLOCK];
+    uint to_left = first, to_right = 0u;
+    for (uint k = first; k < end; ++k) {
+        const ushort leaf = list[k];
+        list[to_left] = leaf;
+        moved[to_right] = leaf;
+        to_left += 1u - right[leaf];
+        to_right += right[leaf];
+    }
+    for (uint k = 0u; k < to_right; ++k)
+        list[to_left + k] = moved[k];
+}
+
+/// Splits the `count` leaves of a node, from `first` on, by cost: in each list, those that go left come first.
+static inline void halve_by_cost(const float4* const centres, ushort lists[3][BLOCK],
+                                 uchar* const right, const uint first, const uint count,
+                                 const uint height, const float scale)
 {
     const uint left = left_count(count, height);
     if (left == count)
         return;
-    const uint middle = first + left;
-    const uint end = first + count;
-    float costs[3];
-    for (uint axis = 0u; axis < 3u; ++axis)
-        costs[axis] = cost_of_few(centres, lists + axis * FEW, first, middle, scale) +
-                      cost_of_few(centres, lists + axis * FEW, middle, end, scale);
-    const uint axis = cheapest_axis(costs[0], costs[1], costs[2]);
-    uint are_left = 0u;  // one bit per leaf
-    for (uint k = first; k < middle; ++k)
-        are_left |= 1u << lists[axis * FEW + k];
-    for (uint list = 0u; list < 3u; ++list) {
-        uint moved[FEW];
-        uint to_left = first;
-        uint to_right = middle;
-        for (uint k = first; k < end; ++k) {
-            const uint leaf = lists[list * FEW + k];
-            const uint is_left = are_left >> leaf & 1u;
-            moved[is_left != 0u ? to_left : to_right] = leaf;
-            to_left += is_left;
-            to_right += 1u - is_left;
-        }
-        for (uint k = first; k < end; ++k)
-            lists[list * FEW + k] = moved[k];
-    }
+    const uint middle = first + left, end = first + count;
+    const float4 costs = costs_of(centres, lists, first, middle, scale) +
+                         costs_of(centres, lists, middle, end, scale);
+    const uint axis = cheapest_axis(costs.x, costs.y, costs.z);
+    for (uint k = first; k < end; ++k)
+        right[lists[axis][k]] = k < middle ? 0 : 1;
+    for (uint list = 0u; list < 3u; ++list)
+        if (list != axis)
+            part_list(lists[list], right, first, end);
 }
 
-/// Splits up to FEW leaves by cost, down to pairs, and writes their ids. All splits of two leaves cost nothing, so two leaves are in
-/// the order of the first axis.
-static inline void order_few(global const uint4* leaves, global uint* ids, const uint count,
-                             const uint top, const float scale)
-{
-    float16 at[3];
-    uint16 own_ids;
-    float4 centres[FEW];
-    for (uint k = 0u; k < FEW; ++k) {
-        // Padding is last in every list.
-        const uint4 leaf =
-            k < count ? leaves[k] : leaf_of((Point){INFINITY, INFINITY, INFINITY}, 0x80000000u | k);
-        centres[k] = as_float4(leaf);
-        ((float*)&at[0])[k] = centres[k].x;
-        ((float*)&at[1])[k] = centres[k].y;
-        ((float*)&at[2])[k] = centres[k].z;
-        ((uint*)&own_ids)[k] = leaf.w;
-    }
-    uint lists[3u * FEW];
-    sort_few(at, own_ids, lists);
-    for (uint height = top; height > 1u; --height)
-        for (uint first = 0u; first < count; first += 1u << height)
-            halve_few(centres, lists, first, min(1u << height, count - first), height, scale);
-    for (uint k = 0u; k < count; ++k)
-        ids[k] = leaves[lists[k]].w;
-}
-
-/// Puts the ids of every aligned run of 2^top leaves, one run per work-item, into the order of the median splits. `leaves` and
-/// `others` are scratch, one leaf per id.
+/// Puts the ids of every aligned run of 2^BLOCK_HEIGHT leaves, one run per work-item, into the order of the median splits. All splits of
+/// two leaves cost nothing, so two leaves are in the order of the first axis.
 kernel void halve_blocks(global const float2* restrict boxes, global uint* restrict ids,
-                         global uint4* leaves, global uint4* others, const uint count,
-                         const uint top)
+                         const uint count)
 {
-    uint slab_counts[BLOCK_SLABS];
-    const uint start = (uint)get_global_id(0) << top;
-    const uint here = min(1u << top, count - start);
-    global uint4* const even = leaves + start;
-    global uint4* const odd = others + start;
-    for (uint k = 0u; k < here; ++k)
-        even[k] = leaf_of(box_centre(load_box(boxes, ids[start + k])), ids[start + k]);
-    const float scale = scale_to_one(longest_side(box_of(even, here), 1.0f));
-    const uint bottom = min(top, FEW_HEIGHT);
-    for (uint first = 0u; first < here; first += 1u << bottom) {
-        const uint highest = first == 0u ? top : lowest_bit(first);
-        for (uint height = highest; height > bottom; --height) {
-            const bool is_even = (top - height) % 2u == 0u;
-            halve_by_cost((is_even ? even : odd) + first, (is_even ? odd : even) + first,
-                          min(1u << height, here - first), height, scale, slab_counts);
-        }
-        order_few(((top - bottom) % 2u == 0u ? even : odd) + first, ids + start + first,
-                  min(1u << bottom, here - first), bottom, scale);
+    const uint start = (uint)get_global_id(0) << BLOCK_HEIGHT;
+    const uint here = min(BLOCK, count - start);
+    float4 centres[BLOCK];
+    uint own_ids[BLOCK];
+    ushort by_id[BLOCK];
+    float4 low = (float4)(INFINITY), high = -low;
+    for (uint k = 0u; k < here; ++k) {
+        const uint id = ids[start + k];
+        const Point centre = box_centre(load_box(boxes, id));
+        own_ids[k] = id;
+        by_id[k] = (ushort)k;
+        centres[k] = (float4)(centre.x, centre.y, centre.z, 0.0f);
+        low = smaller(low, centres[k]);
+        high = larger(high, centres[k]);
     }
+    sort_list(own_ids, by_id, here);
+    ushort lists[3][BLOCK];
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        uint keys[BLOCK];
+        for (uint k = 0u; k < here; ++k) {
+            keys[k] = ordered_bits(((const float*)&centres[k])[axis]);
+            lists[axis][k] = by_id[k];
+        }
+        sort_list(keys, lists[axis], here);
+    }
+    const Aabb box = {low.x, low.y, low.z, high.x, high.y, high.z};
+    const float scale = scale_to_one(longest_side(box, 1.0f));
+    uchar right[BLOCK];
+    for (uint height = BLOCK_HEIGHT; height > 1u; --height)
+        for (uint first = 0u; first < here; first += 1u << height)
+            halve_by_cost(centres, lists, right, first, min(1u << height, here - first), height,
+                          scale);
+    for (uint k = 0u; k < here; ++k)
+        ids[start + k] = own_ids[lists[0][k]];
 }
