@@ -177,6 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
                                  cases.push_back({"words", bits, sweeping(2), false});
                                  cases.push_back({"at_once", bits, at_once(6)});
                                  SortShape chunks{KernelForm::chunks, 16, 3};
+                                 chunks.pairs_per_chunk = 1;
                                  cases.push_back({"chunks", bits, chunks});
                                  chunks.few_pairs = 0;
                                  chunks.large_bucket = 1;

@@ -100,7 +100,7 @@ uint RadixSort::run_count(std::size_t size) const
     const auto count = static_cast<uint>(size);
     if (shape_.form == KernelForm::groups)
         return divided_up(count, shape_.group_size * shape_.keys_per_item);
-    return std::min(count, static_cast<uint>(chunks_));
+    return std::min(divided_up(count, shape_.pairs_per_chunk), static_cast<uint>(chunks_));
 }
 
 void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
@@ -125,7 +125,8 @@ void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
     const std::size_t digits = std::size_t{1} << std::max(digit_bits_, bucket_digit_bits());
     counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
     totals_ = arena.take<uint>(shape_.form == KernelForm::groups ? digits : 0, Use::scratch);
-    const bool has_buckets = shape_.form == KernelForm::chunks && passes_ > 1;
+    const bool has_buckets =
+        shape_.form == KernelForm::chunks && passes_ > 1 && size > shape_.few_pairs;
     largest_ = arena.take<uint>(shape_.form == KernelForm::chunks ? 2 : 0, Use::scratch);
     more_counts_ = arena.take<uint>(
         has_buckets ? (std::size_t{1} << bucket_digit_bits()) * run_count(size) : 0, Use::scratch);

@@ -19,6 +19,8 @@ struct SortShape {
     uint keys_per_item = 15;
     /// Chunks only: bits of the highest digit, which moves pairs to buckets (sort_chunks.cl).
     uint chunk_digit_bits = 10;
+    /// Chunks only: pairs for each chunk, at most as many as there are; with fewer, counting digits takes longer than moving pairs.
+    uint pairs_per_chunk = 1024;
     /// Chunks only: most pairs that are moved by each digit, the lowest first.
     uint few_pairs = 1u << 18;
     /// Chunks only: pairs above which the largest bucket is split once more.
