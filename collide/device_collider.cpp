@@ -150,6 +150,7 @@ void DeviceCollider::take_all()
 
 void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
 {
+    counts_.clear();
     if (needs_tree())
         tree_ = &dynamic_cast<const DeviceTree&>(*tree);
     assert(arena_ && triangles_ == (needs_tree() ? tree_->leaf_count() : input.triangle_count()));
@@ -185,19 +186,22 @@ std::int64_t DeviceCollider::reads_at_least() const
 
 bool DeviceCollider::complete(const Queue& queue)
 {
-    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
     const std::uint64_t found = counts[PAIRS_COUNT / 2];
     const bool pairs_fit = had_room(pair_room_, found, found / 8, sizeof(Pair), device(), "pairs");
     const bool rest_fits =
         make_room(counts[TASKS_COUNT / 2], {counts.begin() + QUEUES_COUNT / 2, counts.end()});
-    if (!pairs_fit || !rest_fits)
+    if (pairs_fit && rest_fits)
+        counts_ = std::move(counts);
+    else
         take_all();
     return pairs_fit && rest_fits;
 }
 
 QueryCounts DeviceCollider::counts(const Queue& queue) const
 {
-    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    const std::vector<std::uint64_t> counts =
+        counts_.empty() ? wide_counts(counters_, queue) : counts_;
     QueryCounts result = {counts[PAIRS_COUNT / 2], counts[BOX_TESTS_COUNT / 2], {}, {}};
     if (needs_tree() && object_count() > 1)
         result.tasks = counts[TASKS_COUNT / 2];
@@ -206,8 +210,7 @@ QueryCounts DeviceCollider::counts(const Queue& queue) const
 
 std::vector<Pair> DeviceCollider::pairs(const Queue& queue) const
 {
-    return first_entries(pairs_, wide_counts(counters_, queue)[PAIRS_COUNT / 2], queue,
-                         "the pairs found");
+    return first_entries(pairs_, DeviceCollider::counts(queue).pairs, queue, "the pairs found");
 }
 
 }  // namespace bvhbench

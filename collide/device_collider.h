@@ -133,6 +133,7 @@ private:
     KernelForm form_;
     const DeviceTree* tree_ = nullptr;  ///< tree of the last call
     std::size_t pair_room_ = 0;
+    std::vector<std::uint64_t> counts_;  ///< of the last query, since it was found complete
     cl::Kernel ropes_kernel_;
     std::optional<Arena> arena_;
     Buffer<uint> ropes_;              ///< one per node; a single word if the tree needs none

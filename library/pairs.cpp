@@ -66,7 +66,8 @@ void Tree::Impl::require_triangles(const char* answers) const
 }
 
 Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first,
-                              std::optional<double> distance)
+                              std::optional<double> distance,
+                              const std::function<void(Collider&)>& then)
 {
     const ImplicitTree& own = standing("a query");
     const bvhbench::Among wanted = internal(among);
@@ -95,7 +96,11 @@ Collider& Tree::Impl::queried(Among among, ObjectFilter filter, bool first,
                                .first = first});
     if (!std::exchange(query.is_ready, false))  // set again on success
         query.collider->reserve(&over, input);
-    bvhbench::find_pairs(*query.collider, &over, input, device->queue);
+    do {
+        query.collider->query(&over, input, device->queue);
+        if (then)
+            then(*query.collider);
+    } while (!query.collider->complete(device->queue));
     query.is_ready = true;
     return *query.collider;
 }
@@ -125,15 +130,18 @@ Pairs Tree::find_contacts(Among among, const Filter& filter)
         own.standing("a query");
         own.require_triangles("contacts");
         Queue& queue = own.device->queue;
-        const DevicePairs candidates =
-            own.queried(among, internal(filter), false).device_pairs(queue);
         if (!own.narrow)
             own.narrow.emplace(own.device->programs,
                                NarrowOptions{.keep_adjacent = own.options.adjacent_pairs});
         if (own.narrow->reserved().total() == 0)
             own.narrow->reserve(own.taker.taken().triangle_count());
-        bvhbench::find_contacts(*own.narrow, own.taker.taken(), candidates.pairs,
-                                candidates.counters, queue);
+        const auto decide = [&](Collider& from) {
+            const DevicePairs candidates = from.device_pairs(queue);
+            own.narrow->query(own.taker.taken(), candidates.pairs, candidates.counters, queue);
+        };
+        Collider& asked = own.queried(among, internal(filter), false, {}, decide);
+        while (!own.narrow->complete(queue))
+            decide(asked);
         return own.found(own.narrow->device_contacts(), own.narrow->counts(queue).contacts);
     });
 }

@@ -107,8 +107,10 @@ struct Tree::Impl {
     const ImplicitTree& standing(const char* what) const;
 
     /// Runs a query, for pairs or up to the first contact: of the current tree or, with a distance, of one over padded boxes.
+    /// `then` enqueues what follows the query, before it is waited for; its work is done anew with the query if that was not complete.
     Collider& queried(Among among, ObjectFilter filter, bool first,
-                      std::optional<double> distance = {});
+                      std::optional<double> distance = {},
+                      const std::function<void(Collider&)>& then = {});
 
     /// Throws BadUsage, naming `answers`, unless the tree is over triangles.
     void require_triangles(const char* answers) const;

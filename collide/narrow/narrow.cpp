@@ -172,6 +172,7 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
                         const Buffer<uint>& candidate_counters, Queue& queue)
 {
     assert(arena_ && "reserve first");
+    counts_.clear();
     if (is_swept()) {
         find_impacts(input, candidates, candidate_counters, queue);
         return;
@@ -251,7 +252,7 @@ void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
 
 bool NarrowPhase::complete(const Queue& queue)
 {
-    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
     const std::uint64_t contacts = counts[CONTACTS_COUNT / 2],
                         unsure = counts[NARROW_EXACT_COUNT / 2];
     const Device& device = programs_.device();
@@ -259,14 +260,17 @@ bool NarrowPhase::complete(const Queue& queue)
         had_room(contact_room_, contacts, contacts / 8, sizeof(Pair), device, "contacts");
     const bool unsure_fit =
         had_room(unsure_room_, unsure, unsure / 8, sizeof(Pair), device, "unsure candidates");
-    if (!contacts_fit || !unsure_fit)
+    if (contacts_fit && unsure_fit)
+        counts_ = std::move(counts);
+    else
         take_all();
     return contacts_fit && unsure_fit;
 }
 
 NarrowCounts NarrowPhase::counts(const Queue& queue) const
 {
-    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    const std::vector<std::uint64_t> counts =
+        counts_.empty() ? wide_counts(counters_, queue) : counts_;
     return {counts[CONTACTS_COUNT / 2], counts[NARROW_FLOAT_COUNT / 2],
             counts[NARROW_DOUBLE_COUNT / 2], counts[NARROW_EXACT_COUNT / 2]};
 }

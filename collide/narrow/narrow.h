@@ -84,8 +84,8 @@ public:
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }
 
     /// Enqueues the stage `narrow` over candidates in any order, whose number is at PAIRS_COUNT of their counters. Candidates
-    /// beyond their buffer are not tested, so complete the broad phase first. Allocates nothing; does not block on devices with
-    /// doubles.
+    /// beyond their buffer are not tested: repeat the query if the broad phase was not complete. Allocates nothing; does not block on
+    /// devices with doubles.
     void query(const Input& input, const Buffer<Pair>& candidates,
                const Buffer<uint>& candidate_counters, Queue& queue);
 
@@ -96,7 +96,7 @@ public:
     NarrowCounts counts(const Queue& queue) const;
     std::vector<Pair> contacts(const Queue& queue) const;
 
-    /// Contacts in device memory, to which others may be appended after a query. `complete` and `counts` then count these too.
+    /// Contacts in device memory, to which others may be appended between a query and `complete`, which then counts these too.
     DevicePairs device_contacts() const { return {contacts_, counters_}; }
 
     /// For each of contacts(), a time from 0 to 1 before which it does not touch, in units of the step. Only of methods for swept
@@ -132,6 +132,7 @@ private:
     Buffer<Pair> blocks_;  ///< blocks of the chunk form
     /// Counters of the last query, and those of the next, which a query zeroes; layout: collide/narrow/narrow_words.h.
     Buffer<uint> counters_, next_counters_;
+    std::vector<std::uint64_t> counts_;  ///< of the last query, since it was found complete
 };
 
 /// True if the device computes in doubles.
