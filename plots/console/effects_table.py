@@ -13,10 +13,12 @@ TITLES = tuple(title for part in ("frame", "query") for title in (part, "95 %", 
 
 
 def text(run: results.Run) -> str:
-    """Returns the tables; empty if the file has no frame of the experiment."""
-    cells = effects.cells_of(run.all_cells)
+    """Returns the tables; of other experiments only which measure predicts a query's time, if trees were measured."""
+    cells, measured = effects.frames_of(run.all_cells), effects.frames_of(run.all_cells, of_any=True)
+    predicts = headed("rank correlation with the time of the stage broad, median and range of scenes", titles_of_ranks(measured),
+                      rows_of_ranks(measured))
     if not cells:
-        return ""
+        return predicts
     missing = [f"{scene} does not count in shares: {counted(len(lacks), 'cell')} missing, as {', '.join(lacks[0])}"
                for scene, lacks in effects.lacking(cells).items() if lacks]
     frame, query = (effects.shares(cells, of_query) for of_query in (False, True))
@@ -24,9 +26,7 @@ def text(run: results.Run) -> str:
                    ("<choice", "<level", "<against", *TITLES, "pairs"), rows_of_ratios(cells))
             + headed("shares of the sum of squares of log times within scenes", ("<decided by", "frame", "query"),
                      ([name, percent(share), percent(query[name])] for name, share in frame.items()))
-            + "".join(f"{terminal.prose(line)}\n" for line in missing)
-            + headed("rank correlation with the time of the stage broad, median and range of scenes",
-                     titles_of_ranks(cells), rows_of_ranks(cells)))
+            + "".join(f"{terminal.prose(line)}\n" for line in missing) + predicts)
 
 
 def headed(heading: str, titles: Sequence[str], rows: Iterable[list[str]]) -> str:

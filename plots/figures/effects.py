@@ -82,7 +82,7 @@ def draw(run: results.Run) -> plt.Figure:
     rows = len(ratios) + len(effects.CHOICES)
     drawing, [[left, right]] = figure.grid(1, 2, 1.0 + ROW * rows, width_ratios=(3, 2))
     draw_effects(left, ratios)
-    draw_correlations(right, effects.cells_of(cells))
+    draw_correlations(right, effects.frames_of(cells))
     handles = [Line2D([], [], color=colour, marker=marker, markersize=3.2, linewidth=1, label=label)
                for colour, marker, label, _ in LOOKS]
     handles.append(Line2D([], [], color="#777777", marker=".", markersize=5, linestyle="none", label="a scene"))

@@ -23,11 +23,10 @@ def short_label(row: ranking.Row) -> str:
 
 def draw(experiment: str, run: results.Run) -> figure.plt.Figure:
     found = ranking.ranked(run.frames(experiment), trusts_stages=True)
-    firsts = {scene: ranking_text.best_of_families(rows) for scene, rows in found.scenes.items()}
-    found = dataclasses.replace(found, scenes=firsts, rows=[])
+    found = dataclasses.replace(found, scenes={scene: ranking_text.best_of_families(rows) for scene, rows in found.scenes.items()}, rows=[])
     if experiment == families.EXPERIMENT:
         return best_bars.draw(run, found, label, (REMARKS[experiment],))
-    ours = dict.fromkeys(label(row) for rows in firsts.values() for row in rows if not row.first.outside)
+    ours = dict.fromkeys(label(row) for rows in found.scenes.values() for row in rows if not row.first.outside)
     return best_bars.draw(run, found, short_label, (REMARKS[experiment], f"Ours: {'; '.join(ours)}."), columns=2)
 
 

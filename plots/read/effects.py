@@ -65,9 +65,10 @@ class Effect(NamedTuple):
     query: Ratio
 
 
-def cells_of(cells: Iterable[Cell]) -> list[Cell]:
-    """Returns the frames of the experiment that have times."""
-    return [cell for cell in cells if cell.experiment == EXPERIMENT and cell.operation == "collide" and cell.has_times]
+def frames_of(cells: Iterable[Cell], of_any: bool = False) -> list[Cell]:
+    """Returns the frames of the experiment, or of any whose trees were measured, that have times."""
+    return [cell for cell in cells if cell.operation == "collide" and cell.has_times
+            and (MEASURES["SAH cost"] in cell.counters if of_any else cell.experiment == EXPERIMENT)]
 
 
 def levels_of(cell: Cell) -> Levels:

@@ -275,10 +275,8 @@ class Facts(unittest.TestCase):
 
     def test_where_errors_are_counted_they_tell_whether_another_answer_is_worse(self) -> None:
         for errors, worse in ((7, []), (9, ["false_count 9, was 8"])):
-            first = document(cell())
-            only = first["cells"][0]
-            only["check"] |= {"verdict": "counted", "contacts_hash": "1" * 16}
-            only["counters"] |= {"missed_count": 0, "false_count": 8, "contacts_count": 108}
+            first = document(cell() | {"check": {"verdict": "counted", "contacts_hash": "1" * 16},
+                                       "counters": {"missed_count": 0, "false_count": 8, "contacts_count": 108}})
             second = copy.deepcopy(first)
             second["cells"][0]["check"]["contacts_hash"] = "3" * 16
             second["cells"][0]["counters"] |= {"false_count": errors, "contacts_count": 100 + errors}

@@ -34,7 +34,7 @@ def frame(scene: str, levels: effects.Levels, build: float, query: float, **coun
 
 
 def cells(raws: list[Raw]) -> list[Cell]:
-    return effects.cells_of(map(Cell, raws))
+    return effects.frames_of(map(Cell, raws))
 
 
 def balanced(exponent: Callable[[int, Any], int], scenes: int = 2) -> list[Cell]:
@@ -127,6 +127,11 @@ class Ranks(unittest.TestCase):
             self.assertAlmostEqual(found["bvtt"]["s"], -leaf)
         self.assertAlmostEqual(effects.correlations(those, "box tests", "both")["leaf"]["s"], 1)
         self.assertEqual(effects.correlations(those, "end-point overlap", "both"), {})
+
+    def test_are_those_of_any_experiment_that_measured_trees(self) -> None:
+        run = run_of()
+        run.document["cells"] = [one | {"experiment": "mine"} for one in golden("effects")["cells"]]
+        self.assertTrue(effects_table.text(run).startswith("rank correlation with the time of the stage broad"))
 
 
 class Shown(unittest.TestCase):
