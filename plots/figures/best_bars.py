@@ -64,7 +64,7 @@ def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda 
          remarks: Sequence[str] = (), columns: int = 1) -> plt.Figure:
     take = chosen(found.rows)
     scenes = [ranking_text.shown_of(rows, MOST_MORE, take) for rows in found.scenes.values()][:MOST_SCENES]
-    drawing, panels = figure.stacked([len(rows) + 2.2 for rows in scenes], ROW[columns], 0.9, columns)
+    drawing, panels = figure.stacked([len(rows) + 1.4 + 0.8 * columns for rows in scenes], ROW[columns], 0.9, columns)
     first = {scene: min(cell.frame for cell in cells) for scene, cells in grouped(run.all_cells, lambda cell: cell.scene).items()}
     there = set().union(*(draw_scene(axes, rows, found.objective, found.by_wall, label, first[rows[0].first.scene], take, columns)
                           for axes, rows in zip(panels, scenes, strict=True)))

@@ -239,7 +239,7 @@ TEST(StressLayout, HoldsAndCountsWhatItLookedAt)
 TEST(StressRun, TellsOfASceneThatTheDeviceHasNoRoomForAndGoesOn)
 {
     Device device = open_device("");
-    device.memory_limit = 65536;
+    device.memory_limit = 131072;
     Session full(std::move(device), SceneLibrary{});
     StressTask task;
     task.size = {false, 1};  // 5,000 triangles
