@@ -19,14 +19,13 @@ def text(run: results.Run) -> str:
                       rows_of_ranks(measured))
     if not cells:
         return predicts
-    missing = [f"{scene} does not count in shares: {counted(len(lacks), 'cell')} missing, as {', '.join(lacks[0])}"
+    missing = [terminal.prose(f"{scene} does not count in shares: {counted(len(lacks), 'cell')} missing, as {', '.join(lacks[0])}") + "\n"
                for scene, lacks in effects.lacking(cells).items() if lacks]
     frame, query = (effects.shares(cells, of_query) for of_query in (False, True))
     return (headed("time over the reference's, all else equal; trees with one way to store leaves are held against sorted ones",
                    ("<choice", "<level", "<against", *TITLES, "pairs"), rows_of_ratios(cells))
             + headed("shares of the sum of squares of log times within scenes", ("<decided by", "frame", "query"),
-                     ([name, percent(share), percent(query[name])] for name, share in frame.items()))
-            + "".join(f"{terminal.prose(line)}\n" for line in missing) + predicts)
+                     ([name, percent(share), percent(query[name])] for name, share in frame.items())) + "".join(missing) + predicts)
 
 
 def headed(heading: str, titles: Sequence[str], rows: Iterable[list[str]]) -> str:

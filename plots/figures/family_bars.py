@@ -26,8 +26,8 @@ def draw(experiment: str, run: results.Run) -> figure.plt.Figure:
     found = dataclasses.replace(found, scenes={scene: ranking_text.best_of_families(rows) for scene, rows in found.scenes.items()}, rows=[])
     if experiment == families.EXPERIMENT:
         return best_bars.draw(run, found, label, (REMARKS[experiment],))
-    ours = dict.fromkeys(label(row) for rows in found.scenes.values() for row in rows if not row.first.outside)
-    return best_bars.draw(run, found, short_label, (REMARKS[experiment], f"Ours: {'; '.join(ours)}."), columns=min(2, len(found.scenes)))
+    ours = "; ".join(dict.fromkeys(label(row) for rows in found.scenes.values() for row in rows if not row.first.outside))
+    return best_bars.draw(run, found, short_label, (REMARKS[experiment], f"Ours: {ours}."), columns=min(2, len(found.scenes)))
 
 
 FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, name) for name in REMARKS}

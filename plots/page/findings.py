@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from ..files import json_files
 from ..read import savings
-from ..read.cells import Cell, grouped
+from ..read.cells import Cell, grouped, median
 from ..read.ranking import Row, method, ranked
 from ..read.ranking_text import number
 from ..words.tables import counted, duration
@@ -165,7 +165,7 @@ def best_row(case: Case, objective: str, places: dict[int, int]) -> list[Any]:
 
 COLUMNS = (("file", "text"), ("experiment", "text"), ("scene", "text"), ("asked for", "text"), ("best", "text"),
            ("time", "time"), ("cost or error", "number"), ("next", "text"), ("ratio", "number"), ("beyond noise", "text"))
-FACETS = ("file", "experiment", "best", "next")
+FACETS, TIME = ("file", "experiment", "best", "next"), 5  # TIME: the place in COLUMNS
 
 
 def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] | None:
@@ -181,11 +181,12 @@ def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] 
         return None
     is_needed = {1: any(row[1] not in row[0] for row in rows)}  # most files are named after their experiment
     kept = [k for k, _ in enumerate(COLUMNS) if is_needed.get(k, True) and any(row[k] not in (None, "") for row in rows)]
-    more = {"file": ({"links": names},), "time": ({"links": links, "unit": "µs"},)}
+    is_ms = median([row[TIME] for row in rows if row[TIME]] or [0]) >= 1000
+    rows = [[value and value / 1000 if is_ms and k == TIME else value for k, value in enumerate(row)] for row in rows]
+    more = {"file": ({"links": names},), "time": ({"links": links, "unit": "ms" if is_ms else "µs"},)}
     starred = any(row[2] and " *" in row[2] for row in rows)
-    note = ("Time: the lowest, of several frames the mean of medians after the first, by the wall clock where a method from outside is "
-            "compared. Ratio: the next over it. Beyond noise: intervals of the medians do not overlap. What was wrong, lacks a frame, or "
-            "starts from the frame before where there is none, has no place.")
+    note = ("Time: the lowest, of several frames the mean of medians after the first; by the wall clock beside a method from outside. Beyond "
+            "noise: intervals of the medians do not overlap. What was wrong, lacks a frame, or starts from one that is not there, has no place.")
     columns = [(*COLUMNS[k], *more.get(COLUMNS[k][0], ())) for k in kept]
     return cell_data.table("The best of each scene", columns, FACETS, [[row[k] for k in kept] for row in rows],
                            note + (f" {cell_data.STAR}." if starred else ""))
