@@ -127,7 +127,7 @@ def rows(doc: Document) -> None:
 
 def radix_by_collider(doc: Document) -> None:
     """What a radix tree's frame takes beside an implicit tree's, all else equal, by collider."""
-    cells = effects.cells_of(File("h200/effects").cells)
+    cells = effects.frames_of(File("h200/effects").cells)
     by = [effects.ratio_of(effects.logs_of([cell for cell in cells if cell.collider == name], of_query=False), 0, "apetrei-fused").mean
           for name in ("leaf", "group", "block", "bvtt")]
     doc.says("adix tree's frame takes {} times as long as an implicit tree's with `leaf`, {} with `group`, {} with `block`, {} with `bvtt`", *by)
