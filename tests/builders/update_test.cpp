@@ -191,7 +191,7 @@ TEST_P(Updating, HasOnlyTheStagesThatSomeObjectNeeds)
     EXPECT_EQ(stages_of({rebuild, refit, keep}), built);
     const std::int64_t few = moved_;
     EXPECT_EQ(stages_of({rebuild, rebuild, refit}), built);
-    EXPECT_GT(4 * moved_, 5 * few);  // in both cases, boxes of all moving objects and the sort's tables
+    EXPECT_GT(4 * moved_, 5 * few);  // both with boxes of all moving objects, and the sort's tables
     EXPECT_EQ(stages_of({keep, keep, refit}), refits);
 }
 

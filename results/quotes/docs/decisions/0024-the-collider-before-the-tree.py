@@ -8,7 +8,7 @@ BUILDERS = ("perfect", "oibvh-wide4", "oibvh-wide8", "apetrei-fused", "hploc")
 
 
 def quotes(doc: Document) -> None:
-    cells = effects.cells_of(File("h200/effects").cells)
+    cells = effects.frames_of(File("h200/effects").cells)
     doc.table("effects", f"< choice, against | < level | {' | '.join(effects_table.TITLES)}", (
         [f"{choice}, `{reference}`", f"`{level}`", *columns]
         for choice, level, reference, *columns, _ in effects_table.rows_of_ratios(cells)))
@@ -32,7 +32,7 @@ def quotes(doc: Document) -> None:
 
 
 def two_cores(doc: Document) -> None:
-    cells = effects.cells_of(File("pocl-2-cores/effects").cells)
+    cells = effects.frames_of(File("pocl-2-cores/effects").cells)
     by = effects.shares(cells, of_query=False)
     frame = {one.level: one.frame.mean for one in effects.effects(cells) if one.frame}
     doc.says("PoCL, seven of the meshes, {} cells", len(cells))
