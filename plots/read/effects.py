@@ -162,7 +162,7 @@ def correlations(cells: list[Cell], measure: str, kind: str) -> dict[str, dict[s
     counter = MEASURES[measure]
     those = [cell for cell in cells if counter in cell.counters and families.of_builder(cell.builder) in KINDS[kind]]
     found: dict[str, dict[str, float]] = {}
-    for (collider, scene), there in grouped(those, lambda cell: (cell.collider or "", cell.scene)).items():
+    for (collider, scene), there in grouped(those, lambda cell: (cell.collider or "", cell.scene + f", frame {cell.frame}" * (cell.frame > 0))).items():
         rho = spearman([(cell.counters[counter], cell.median_ns("broad")) for cell in there])
         if not math.isnan(rho):
             found.setdefault(collider, {})[scene] = rho

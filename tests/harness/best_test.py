@@ -7,19 +7,10 @@ import shlex
 import signal
 import sys
 
-from program import KEPT, at_work, copied_kernels, ended, expect, main, run, valid, wait_until
+from program import KEPT, at_work, best, copied_kernels, ended, expect, main, run, valid, wait_until
 
 FEW = ("--builders", "karras", "--orders", "morton30", "--colliders", "leaf,group")
 NARROWED = ("--builders", "oibvh-multi,karras", "--orders", "morton30,hilbert30", "--colliders", "leaf,group")
-
-
-def best(code: int, *words: str, **environment: str) -> str:
-    for more in ([], ["--force"], ["--force"]):
-        done = run("best", *words, *more, **environment)
-        if "\nno winner: " not in done.stdout:  # as it may be on a busy machine
-            break
-    assert done.returncode == code, (words, done)
-    return done.stdout
 
 
 def test_answers_with_a_table_a_sentence_a_command_and_files() -> None:
