@@ -45,9 +45,10 @@ std::vector<NamedCodes> hard_codes(std::size_t size, unsigned bits)
     const ulong largest = (ulong{1} << bits) - 1;
     std::mt19937_64 random(size);
     const std::vector<ulong> any = any_codes(size, bits);
-    std::vector<ulong> few(size), few_high(size), patches(size);
+    std::vector<ulong> few(size), few_high(size), low(size), patches(size);
     for (std::size_t k = 0; k < size; ++k) {
         few[k] = random() % 5;
+        low[k] = any[k] >> bits / 3;  // one highest digit, and many next ones
         few_high[k] = largest - (random() % 3 << (bits - 7));
         patches[k] = (k / 37 * 0x9e3779b97f4a7c15u) & largest;
     }
@@ -56,6 +57,7 @@ std::vector<NamedCodes> hard_codes(std::size_t size, unsigned bits)
     return {{"any", any},
             {"few", few},
             {"few high", few_high},
+            {"low", low},
             {"patches", patches},
             {"all zero", std::vector<ulong>(size, 0)},
             {"all ones", std::vector<ulong>(size, largest)},
@@ -179,8 +181,7 @@ INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
                                  SortShape chunks{KernelForm::chunks, 16, 3};
                                  chunks.pairs_per_chunk = 1;
                                  cases.push_back({"chunks", bits, chunks});
-                                 chunks.few_pairs = 0;
-                                 chunks.large_bucket = 1;
+                                 chunks.few_pairs = 0, chunks.large_bucket = 1;
                                  cases.push_back({"buckets", bits, chunks});
                              }
                              return cases;

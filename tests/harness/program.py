@@ -50,11 +50,10 @@ def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
 
 
 def best(code: int, *words: str, **environment: str) -> str:
-    """As `expect` of `best`; again if a busy machine left too few samples for a winner."""
-    for more in ([], ["--force"], ["--force"]):
-        done = run("best", *words, *more, **environment)
-        if "\nno winner: " not in done.stdout:
-            break
+    # Again if a busy machine left too few samples for a winner.
+    done = run("best", *words, **environment)
+    if "\nno winner: " in done.stdout and "--force" not in words:
+        return best(code, *words, "--force", **environment)
     assert done.returncode == code, (words, done)
     return done.stdout
 
