@@ -140,11 +140,12 @@ void KernelBuilder::choose_and_plan(Meeting meeting)
 void KernelBuilder::plan_hierarchy(Arena& arena)
 {
     choose_and_plan(may_wait() ? Meeting::by_waiting : asked_);
-    // The waiting groups must leave at least one compute unit to the groups they wait for, whatever the order of starting.
+    // The waiting groups must leave at least one compute unit to the groups they wait for, whatever the order of starting. Where there
+    // are more, a launch a round takes less time than groups that each find out whether they are the last.
     const Device& device = programs_.device();
     if (!device.is_cpu() &&
         whole_.later_list.size() >= device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
-        choose_and_plan(asked_);
+        choose_and_plan(Meeting::between_launches);
     whole_.take(arena, whole_);
     const std::size_t groups =
         whole_.list.empty() ? 0 : whole_.list[0].subtrees + whole_.later_list.size();

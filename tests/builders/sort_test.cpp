@@ -35,8 +35,7 @@ std::vector<ulong> any_codes(std::size_t size, unsigned bits)
 {
     std::mt19937_64 random(size);
     std::vector<ulong> codes(size);
-    for (ulong& code : codes)
-        code = random() & ((ulong{1} << bits) - 1);
+    std::ranges::generate(codes, [&] { return random() & ((ulong{1} << bits) - 1); });
     return codes;
 }
 
@@ -45,12 +44,14 @@ std::vector<NamedCodes> hard_codes(std::size_t size, unsigned bits)
     const ulong largest = (ulong{1} << bits) - 1;
     std::mt19937_64 random(size);
     const std::vector<ulong> any = any_codes(size, bits);
-    std::vector<ulong> few(size), few_high(size), low(size), patches(size);
+    std::vector<ulong> few(size), few_high(size), low(size), patches(size), runs(size);
     for (std::size_t k = 0; k < size; ++k) {
         few[k] = random() % 5;
         low[k] = any[k] >> bits / 3;  // one highest digit, and many next ones
         few_high[k] = largest - (random() % 3 << (bits - 7));
         patches[k] = (k / 37 * 0x9e3779b97f4a7c15u) & largest;
+        runs[k] =
+            any[random() % (size / 8 + 1)] ^ random() % 4;  // some 8 codes, alike but for two bits
     }
     std::vector<ulong> ascending = any;
     std::sort(ascending.begin(), ascending.end());
@@ -59,6 +60,7 @@ std::vector<NamedCodes> hard_codes(std::size_t size, unsigned bits)
             {"few high", few_high},
             {"low", low},
             {"patches", patches},
+            {"runs", runs},
             {"all zero", std::vector<ulong>(size, 0)},
             {"all ones", std::vector<ulong>(size, largest)},
             {"ascending", ascending},
@@ -229,8 +231,7 @@ TEST(RadixSort, EqualsAStableSortPastTheIntegersOfAFloat)
     const std::size_t size = (std::size_t{1} << 24) + 3;
     std::mt19937 random(3);
     std::vector<uint> codes(size);
-    for (uint& code : codes)
-        code = static_cast<uint>(random() >> 2);
+    std::ranges::generate(codes, [&] { return static_cast<uint>(random() >> 2); });
     RadixSort sort(bench().programs, 30);
     plan(sort, size);
     enqueue(sort, codes);
@@ -281,9 +282,8 @@ TEST(RadixSort, InOneLaunchSortsMoreOftenThanItsMarksLast)
     RadixSort sort(bench().programs, bits, at_once(6));
     const std::vector<ulong> early = {5, 4, 3, 2, 1}, late = {1ul << 60, 3, 1ul << 61, 1, 0};
     plan(sort, early.size());
-    for (uint k = 0; k < sorts; ++k) {
+    for (uint k = 0; k < sorts; ++k)
         enqueue(sort, words_of(k < sorts / 2 ? early : late, bits));
-    }
     EXPECT_EQ(from_device(sort.ids()), host_sorted_ids(late));
     bench().queue.finish();
 }

@@ -52,8 +52,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
         (shape.sweeps == always ||
          (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
         digit_bits_ = tile_digit_bits;
-        waiting_.emplace(programs, code_bits, shape.sweep_group_size,
-                         std::max(1u, shape.sweep_keys_per_item / words),
+        waiting_.emplace(programs, code_bits, shape.sweep_group_size, shape.sweep_keys_per_item,
                          shape.keys_at_once / words);
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
@@ -114,12 +113,14 @@ void RadixSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
         ids_[passes_ % 2] = {arena.take_twice<uint>(size).cl(), size};
         ids_[(passes_ + 1) % 2] = {arena.take<uint>(2 * size, Use::scratch).cl(), size};
         codes_ = ids_;
+        unsorted_ = code_words(code_bits_) == 1 ? codes_[0] : arena.take<uint>(words, Use::scratch);
         return;
     }
     ids_[passes_ % 2] = arena.take<uint>(size, Use::tree);
     ids_[(passes_ + 1) % 2] = arena.take<uint>(size, Use::scratch);
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
+    unsorted_ = codes_[0];
     if (waiting_)
         return;
     const std::size_t digits = std::size_t{1} << std::max(digit_bits_, bucket_digit_bits());
@@ -146,12 +147,12 @@ void RadixSort::plan_aside(Arena& arena)
 void RadixSort::enqueue(Queue& queue, bool is_counted)
 {
     queue.begin("sort");
-    enqueue_passes(queue, static_cast<uint>(size_), codes_, ids(), is_counted);
+    enqueue_passes(queue, static_cast<uint>(size_), unsorted_, codes_, ids(), is_counted);
 }
 
 void RadixSort::enqueue_in_stage(Queue& queue)
 {
-    enqueue_passes(queue, static_cast<uint>(size_), codes_, ids(), false);
+    enqueue_passes(queue, static_cast<uint>(size_), unsorted_, codes_, ids(), false);
 }
 
 void RadixSort::enqueue_aside(Queue& queue, uint count)
@@ -161,17 +162,18 @@ void RadixSort::enqueue_aside(Queue& queue, uint count)
     if (moves_words_)
         codes[passes_ % 2] = aside_;
     queue.begin("sort");
-    enqueue_passes(queue, count, codes, aside_, false);
+    enqueue_passes(queue, count, unsorted_codes_aside(), codes, aside_, false);
 }
 
-void RadixSort::enqueue_passes(Queue& queue, uint count, const std::array<Buffer<uint>, 2>& codes,
-                               const Buffer<uint>& result, bool is_counted)
+void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& unsorted,
+                               const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
+                               bool is_counted)
 {
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
     if (waiting_) {
-        waiting_->enqueue(codes, result, other, count, is_counted, queue);
+        waiting_->enqueue(unsorted, codes, result, other, count, is_counted, queue);
         return;
     }
     if (shape_.form == KernelForm::chunks) {

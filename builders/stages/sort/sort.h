@@ -54,11 +54,11 @@ public:
     void plan_aside(Arena& arena);
 
     /// Input, code_words(code_bits) words per code; `enqueue` overwrites it. It may share memory with `ids`.
-    const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
+    const Buffer<uint>& unsorted_codes() const { return unsorted_; }
     /// Input of `enqueue_aside`, which overwrites it.
     const Buffer<uint>& unsorted_codes_aside() const
     {
-        return moves_words_ && passes_ % 2 == 0 ? aside_ : codes_[0];
+        return moves_words_ && passes_ % 2 == 0 && code_words(code_bits_) == 1 ? aside_ : unsorted_;
     }
 
     /// True if the planned sort needs the counts of all digits, so that who makes the codes may count them.
@@ -99,8 +99,9 @@ public:
 
 private:
     uint run_count(std::size_t size) const;
-    void enqueue_passes(Queue& queue, uint count, const std::array<Buffer<uint>, 2>& codes,
-                        const Buffer<uint>& result, bool is_counted);
+    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& unsorted,
+                        const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
+                        bool is_counted);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
                       const Buffer<uint>& ids_out);
     void enqueue_chunks(Queue& queue, uint count, const Buffer<uint>& ids,
@@ -120,7 +121,9 @@ private:
     cl::Kernel buckets_;                  ///< Chunks only.
     std::optional<WaitingSort> waiting_;  ///< If groups wait.
     std::size_t size_ = 0;
-    /// True if passes move words of 64 bits. Then codes_ and ids_ are the same two buffers, with room for such words.
+    Buffer<uint> unsorted_;
+    /// True if passes move words of 64 bits. Then codes_ and ids_ are the same two buffers, with room for such words, and codes of 64 bits
+    /// begin in a third.
     bool moves_words_ = false;
     std::array<Buffer<uint>, 2> codes_;  ///< Pass p reads codes_[p % 2] and writes the other.
     std::array<Buffer<uint>, 2> ids_;    ///< Pass p reads one and writes the other.

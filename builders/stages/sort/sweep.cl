@@ -34,17 +34,17 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits
     add_counts(counts, counters, passes);
 }
 
-/// Moves every pair to its place by digit `pass`. In the first pass, ids are the pairs' positions and `ids_in` is not read. With `packs`,
-/// codes_out gets words (sweep_words.cl) and `ids_out` is not written. `is_last` tells the last pass.
+/// Moves every pair to its place by digit `pass`. In the first pass, ids are the pairs' positions and `ids_in` is not read. `is_last`
+/// tells the last pass.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     global const Code* restrict codes_in, global const uint* restrict ids_in,
     global Code* restrict codes_out, global uint* restrict ids_out, volatile global uint* counters,
     global uint* restrict other_counters, volatile global ulong* restrict states, const uint count,
-    const uint pass, const uint epoch, const uint packs, const uint id_bits, const uint is_last)
+    const uint pass, const uint epoch, const uint is_last)
 {
     local Scratch scratch;
     const uint shift = DIGIT_BITS * pass;
-    const uint tile = next_tile(&scratch, counters, other_counters, pass);
+    const uint tile = next_tile(&scratch, counters, other_counters, pass, pass == 0u);
     const uint here = min(TILE, count - tile * TILE);
     OwnCodes own;
     uint ids[KEYS_PER_ITEM], to[KEYS_PER_ITEM];
@@ -52,15 +52,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     load_ids(ids, ids_in, tile * TILE, here, pass == 0u);
     sort_tile(&own, &scratch, counters, states, tile, pass, shift, epoch, is_last != 0u);
     take_codes(&own, to, &scratch.tile, scratch.places, shift);
-    if (packs == 0u)
-        write_codes(&own, to, codes_out, here);
-    sort_ids(&own, ids, &scratch.tile);
-    if (packs == 0u) {
-        write_ids(ids, to, ids_out, here);
-        return;
-    }
-#pragma unroll
-    for (uint k = 0u; k < KEYS_PER_ITEM; ++k)
-        own.codes[k] = own.codes[k] >> (shift + DIGIT_BITS) << id_bits | ids[k];
     write_codes(&own, to, codes_out, here);
+    sort_ids(&own, ids, &scratch.tile);
+    write_ids(ids, to, ids_out, here);
 }

@@ -30,6 +30,14 @@ constexpr uint wide_tile_bytes = 40 << 10;
 
 constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
 
+/// Passes by the high parts of codes of 64 bits: of at most 32 bits, which fit beside an id.
+constexpr uint high_passes = 4;
+
+// Values of READS, WRITES and IF_RUNS in sweep_words.cl.
+constexpr uint words = 0, codes_of_32 = 1, ids = 1, low_parts = 2, narrowed_words = 2,
+               high_parts = 3;
+constexpr uint have_any_length = 0, are_short = 1, are_long = 2;
+
 /// Fewest keys per work-item in one launch: with fewer, there are more groups, which wait for each other.
 constexpr uint fewest_keys = 2;
 
@@ -68,24 +76,17 @@ cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) co
     return programs_.kernel(path, name, all, Optimise::on_gpus);
 }
 
-/// Returns the kernel of a pass over words.
-cl::Kernel WaitingSort::word_kernel(uint pass, uint keys) const
+/// Returns the kernel of a pass over words, which may be narrow: of 32 bits.
+cl::Kernel WaitingSort::word_kernel(uint keys, uint reads, uint writes, uint if_runs,
+                                    bool is_narrow) const
 {
-    const bool is_last = pass + 1 == passes_;
     std::vector<Define> all = defines(keys);
-    all.push_back({"CODE_WORDS", pass < narrow_pass_ ? 2u : 1u});
-    all.push_back({"READS_CODES", pass == 0 ? 1u : 0u});
-    all.push_back({"WRITES", is_last ? 0u : pass + 1 == narrow_pass_ ? 2u : 1u});
+    all.insert(all.end(), {{"CODE_WORDS", is_narrow ? 1u : 2u},
+                           {"READS", reads},
+                           {"WRITES", writes},
+                           {"IF_RUNS", if_runs}});
     return programs_.kernel("builders/stages/sort/sweep_words.cl", "sweep_words", all,
                             Optimise::on_gpus);
-}
-
-cl::Kernel WaitingSort::beginning_with(const char* path, const char* name,
-                                       std::span<const Define> more) const
-{
-    std::vector<Define> all = defines(tile_ / group_size_);
-    all.insert(all.end(), more.begin(), more.end());
-    return programs_.kernel(path, name, all, Optimise::on_gpus);
 }
 
 /// Returns the first pass before which an id and the digits of the code that are left fit into `bits`, or `passes_`.
@@ -95,6 +96,48 @@ uint WaitingSort::first_pass_within(uint bits) const
         if (code_bits_ - pass * tile_digit_bits + id_bits_ <= bits)
             return pass;
     return passes_;
+}
+
+/// Plans the passes over codes of 32 bits.
+void WaitingSort::plan_narrowing_passes(uint keys)
+{
+    const uint narrow = first_pass_within(32);
+    const auto size = [&](uint pass) { return pass == 0 || pass >= narrow ? 1u : 2u; };
+    for (uint pass = 0; pass < passes_; ++pass) {
+        const bool ends = pass + 1 == passes_;
+        const uint writes = ends ? ids : pass + 1 == narrow ? narrowed_words : words;
+        word_passes_.push_back({word_kernel(keys, pass == 0 ? codes_of_32 : words, writes,
+                                            have_any_length, pass >= narrow),
+                                pass, pass >= narrow ? narrow : 0, pass == 0, ends,
+                                size(pass) + (ends ? 1 : size(pass + 1))});
+    }
+}
+
+/// Plans the passes over codes of 64 bits: by their high parts, and by all for the case that runs are long.
+void WaitingSort::plan_passes_of_parts(uint keys)
+{
+    const uint low = low_passes_;
+    expect_runs_ = kernel("builders/stages/sort/sort_runs.cl", "expect_runs", keys);
+    sort_runs_ = kernel("builders/stages/sort/sort_runs.cl", "sort_runs", keys);
+    for (uint pass = low; pass < passes_; ++pass)
+        word_passes_.push_back(
+            {word_kernel(keys, pass == low ? high_parts : words, words, are_short, false), pass,
+             low, pass == low, false, 4});
+    for (uint pass = 0; pass < passes_; ++pass) {
+        const bool ends = pass + 1 == passes_;
+        const uint writes = ends ? ids : pass + 1 == low ? high_parts : words;
+        word_passes_.push_back(
+            {word_kernel(keys, pass == 0 ? low_parts : words, writes, are_long, false), pass,
+             pass < low ? 0 : low, pass == 0, ends, 0});
+    }
+}
+
+cl::Kernel WaitingSort::beginning_with(const char* path, const char* name,
+                                       std::span<const Define> more) const
+{
+    std::vector<Define> all = defines(tile_ / group_size_);
+    all.insert(all.end(), more.begin(), more.end());
+    return programs_.kernel(path, name, all, Optimise::on_gpus);
 }
 
 void WaitingSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
@@ -107,7 +150,7 @@ void WaitingSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
     const auto count = static_cast<uint>(size);
     size_ = count;
     id_bits_ = ceil_log2(std::max(count, 1u));
-    pair_passes_ = keeps_codes ? passes_ : sorts_words() ? 0 : first_pass_within(64);
+    low_passes_ = code_words_ == 1 ? 0 : passes_ - high_passes;
     if (is_at_once_)
         plan_at_once(arena, count);
     else
@@ -121,6 +164,7 @@ void WaitingSort::plan_at_once(Arena& arena, uint count)
     tile_ = group_size_ * keys;
     sort_ = kernel("builders/stages/sort/sort_at_once.cl", "sort_at_once", keys);
     counters_ = {};
+    word_passes_.clear();
     const std::size_t tiles = divided_up(count, tile_);
     states_ = arena.take<ulong>(2 * (2 * tiles + 1) * digits + bounds_words * tiles, Use::scratch);
     posts_ = arena.take<ulong>(2 * std::size_t{code_words_} * count, Use::scratch);
@@ -129,16 +173,19 @@ void WaitingSort::plan_at_once(Arena& arena, uint count)
 void WaitingSort::plan_sweeps(Arena& arena, uint count)
 {
     const uint most_keys = wide_tile_bytes / uint{sizeof(ulong)} / group_size_;
-    const uint keys = sorts_words() ? std::min(keys_, most_keys) : keys_;
+    const uint keys =
+        sorts_words() ? std::min(keys_, most_keys) : std::max(1u, keys_ / code_words_);
     tile_ = group_size_ * keys;
     count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys);
-    if (pair_passes_ > 0)
+    if (!sorts_words())
         sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys);
-    narrow_pass_ = code_words_ == 1 ? first_pass_within(32) : passes_;
-    for (uint pass = pair_passes_; pass < passes_; ++pass)
-        sort_words_[pass] = word_kernel(pass, keys);
+    word_passes_.clear();
+    if (sorts_words() && code_words_ == 1)
+        plan_narrowing_passes(keys);
+    else if (sorts_words())
+        plan_passes_of_parts(keys);
     for (Buffer<uint>& counters : counters_)
-        counters = arena.take<uint>(most_tile_passes * (digits + 1), Use::scratch);
+        counters = arena.take<uint>(most_tile_passes * (digits + 1) + 1, Use::scratch);
     states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * digits, Use::scratch);
     posts_ = {};
 }
@@ -156,11 +203,17 @@ void WaitingSort::prepare(const cl::CommandQueue& queue)
     queue.finish();
 }
 
+/// Returns the epochs of a sort: one for each pass, and for each that is seldom needed.
+uint WaitingSort::epochs() const
+{
+    return std::max(passes_, static_cast<uint>(word_passes_.size()));
+}
+
 /// Begins the next sort: clears what passes leave if their epochs have been used up.
 void WaitingSort::next_epochs(Queue& queue)
 {
     const uint last = is_at_once_ ? last_post_epoch : last_epoch;
-    if (epoch_ <= last - passes_)
+    if (epoch_ <= last - epochs())
         return;
     queue.clear(states_.cl(), states_.bytes());
     if (is_at_once_)
@@ -168,8 +221,9 @@ void WaitingSort::next_epochs(Queue& queue)
     epoch_ = 1;
 }
 
-void WaitingSort::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                          const Buffer<uint>& other, uint count, bool is_counted, Queue& queue)
+void WaitingSort::enqueue(const Buffer<uint>& unsorted, const std::array<Buffer<uint>, 2>& codes,
+                          const Buffer<uint>& result, const Buffer<uint>& other, uint count,
+                          bool is_counted, Queue& queue)
 {
     next_epochs(queue);
     if (is_at_once_) {
@@ -178,11 +232,16 @@ void WaitingSort::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer
         queue.launch(sort_, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
                      bytes_at_once(count));
     } else {
+        if (!is_counted)
+            count_digits(unsorted, count, queue);
         const bool is_odd = passes_ % 2 == 1;  // the last pass writes ids to `result`
-        sweep(codes, is_odd ? other : result, is_odd ? result : other, result, count, is_counted,
-              queue);
+        if (sorts_words())
+            sweep_words(unsorted, codes, result, count, queue);
+        else
+            sweep(codes, is_odd ? other : result, is_odd ? result : other, count, queue);
+        turn_ = 1 - turn_;
     }
-    epoch_ += passes_;
+    epoch_ += epochs();
 }
 
 void WaitingSort::enqueue_beginning(cl::Kernel& kernel, cl_uint next,
@@ -209,41 +268,54 @@ std::int64_t WaitingSort::bytes_at_once(uint count) const
            std::int64_t{count} * std::int64_t{sizeof(uint)};
 }
 
-void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
-                        const Buffer<uint>& ids_b, const Buffer<uint>& result, uint count,
-                        bool is_counted, Queue& queue)
+void WaitingSort::count_digits(const Buffer<uint>& codes, uint count, Queue& queue)
 {
-    const uint tiles = divided_up(count, tile_);
-    const Buffer<uint>& counters = counters_[turn_];
-    turn_ = 1 - turn_;
-    const std::int64_t id_bytes = std::int64_t{count} * sizeof(uint);
-    const std::int64_t code_bytes = id_bytes * code_words_;
+    set_arguments(count_, codes, counters_[turn_], count, code_bits_);
+    const std::size_t groups =
+        std::min<std::size_t>(divided_up(count, tile_), units_ * counting_groups_per_unit);
+    queue.launch(count_, groups * group_size_, group_size_,
+                 std::int64_t{count} * code_words_ * std::int64_t{sizeof(uint)});
+}
 
-    if (!is_counted) {
-        set_arguments(count_, codes[0], counters, count, code_bits_);
-        const std::size_t counting = units_ * counting_groups_per_unit;
-        queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_, group_size_,
-                     code_bytes);
-    }
-    const std::size_t work_items = std::size_t{tiles} * group_size_;
-    for (uint pass = 0; pass < pair_passes_; ++pass) {
+void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
+                        const Buffer<uint>& ids_b, uint count, Queue& queue)
+{
+    const std::int64_t id_bytes = std::int64_t{count} * sizeof(uint);
+    for (uint pass = 0; pass < passes_; ++pass) {
         const bool is_even = pass % 2 == 0;
-        const uint packs = pass + 1 == pair_passes_ && pair_passes_ < passes_ ? 1 : 0;
         set_arguments(sort_, codes[pass % 2], is_even ? ids_a : ids_b, codes[(pass + 1) % 2],
-                      is_even ? ids_b : ids_a, counters, counters_[turn_], states_, count, pass,
-                      epoch_ + pass, packs, id_bits_, pass + 1 == passes_ ? 1u : 0u);
-        queue.launch(sort_, work_items, group_size_,
-                     2 * code_bytes + ((pass == 0 ? 1 : 2) - packs) * id_bytes);
+                      is_even ? ids_b : ids_a, counters_[turn_], counters_[1 - turn_], states_,
+                      count, pass, epoch_ + pass, pass + 1 == passes_ ? 1u : 0u);
+        queue.launch(sort_, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
+                     (2 * code_words_ + (pass == 0 ? 1 : 2)) * id_bytes);
     }
-    for (uint pass = pair_passes_; pass < passes_; ++pass) {
-        const bool is_last = pass + 1 == passes_;
-        const uint first_pass = pass >= narrow_pass_ ? narrow_pass_ : pair_passes_;
-        set_arguments(sort_words_[pass], codes[pass % 2], is_last ? result : codes[(pass + 1) % 2],
-                      counters, counters_[turn_], states_, count, pass, epoch_ + pass, first_pass,
-                      id_bits_);
-        const auto words = [&](uint at) { return at == 0 || at >= narrow_pass_ ? 1 : 2; };
-        queue.launch(sort_words_[pass], work_items, group_size_,
-                     id_bytes * (words(pass) + (is_last ? 1 : words(pass + 1))));
+}
+
+void WaitingSort::sweep_words(const Buffer<uint>& unsorted, const std::array<Buffer<uint>, 2>& two,
+                              const Buffer<uint>& result, uint count, Queue& queue)
+{
+    const std::int64_t word_bytes = std::int64_t{count} * sizeof(uint);
+    if (low_passes_ > 0) {
+        set_arguments(expect_runs_, counters_[turn_], count, low_passes_, passes_);
+        queue.launch(expect_runs_, group_size_, group_size_,
+                     std::int64_t{high_passes * digits} * std::int64_t{sizeof(uint)});
+    }
+    for (uint k = 0; k < word_passes_.size(); ++k) {
+        WordPass& own = word_passes_[k];
+        const bool is_before_runs = low_passes_ > 0 && k < high_passes;
+        const uint from = is_before_runs ? (own.pass + 1) % 2 : own.pass % 2;
+        set_arguments(own.kernel, own.begins ? unsorted : two[from],
+                      own.ends ? result : two[1 - from], counters_[turn_], counters_[1 - turn_],
+                      states_, count, own.pass, epoch_ + k, own.first_pass, id_bits_, unsorted,
+                      low_passes_ * tile_digit_bits);
+        queue.launch(own.kernel, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
+                     own.moved * word_bytes);
+        if (is_before_runs && k + 1 == high_passes) {
+            set_arguments(sort_runs_, two[1 - from], unsorted, result, counters_[turn_], count,
+                          id_bits_);
+            queue.launch(sort_runs_, std::size_t{divided_up(count, group_size_)} * group_size_,
+                         group_size_, 3 * word_bytes);
+        }
     }
 }
 

@@ -29,8 +29,8 @@ public:
     WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint keys,
                 uint most_keys_at_once);
 
-    /// Takes the buffers for `size` pairs. Without `keeps_codes`, pairs become words of 64 bits, and then of 32, as soon as an id and
-    /// the digits of the code that are left fit into one.
+    /// Takes the buffers for `size` pairs. Without `keeps_codes`, passes of a launch each move words of 64 bits, and then of 32, as soon
+    /// as an id and the digits of the code that are left fit into one (sweep_words.cl).
     void plan(Arena& arena, std::size_t size, bool keeps_codes);
 
     /// Returns a kernel for the planned sort at once that begins with what comes before the sort, compiled with `defines` in
@@ -46,8 +46,8 @@ public:
     /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
 
-    /// True if all passes move words, at first of 64 bits: codes' buffers need room for these, and no other ids are needed.
-    bool sorts_words() const { return code_words_ == 1 && !keeps_codes_ && !is_at_once_; }
+    /// True if passes move words, at first of 64 bits: the two buffers of `enqueue` need room for these, and no other ids are needed.
+    bool sorts_words() const { return !keeps_codes_ && !is_at_once_; }
 
     /// True if all passes of the planned sort are in one launch.
     bool is_at_once() const { return is_at_once_; }
@@ -56,24 +56,40 @@ public:
     /// Where the counts of the next sort belong, a row of digits per pass; all zero before.
     const Buffer<uint>& counters() const { return counters_[turn_]; }
 
-    /// Sorts the first `count` codes of codes[0], with ids 0, 1, 2, ... Ids end in `result`. Codes, if kept, end in codes[passes % 2],
-    /// or in codes[1] if all is one launch. `other` is scratch. With `is_counted`, `counters` has the counts of the digits already.
-    /// Does not block.
-    void enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                 const Buffer<uint>& other, uint count, bool is_counted, Queue& queue);
+    /// Sorts the first `count` codes of `unsorted`, with ids 0, 1, 2, ... Ids end in `result`. Codes, if kept, begin in codes[0], and end
+    /// in codes[passes % 2], or in codes[1] if all is one launch. `other` is scratch. With `is_counted`, `counters` has the counts of the
+    /// digits already. Does not block.
+    void enqueue(const Buffer<uint>& unsorted, const std::array<Buffer<uint>, 2>& codes,
+                 const Buffer<uint>& result, const Buffer<uint>& other, uint count, bool is_counted,
+                 Queue& queue);
 
 private:
+    /// A launch of sweep_words.cl.
+    struct WordPass {
+        cl::Kernel kernel;
+        uint pass;        ///< Of its digit.
+        uint first_pass;  ///< Of the lowest digit in the words that it reads.
+        bool begins;      ///< It reads codes.
+        bool ends;        ///< It writes to `result`.
+        uint moved;       ///< Words of 32 bits, read and written for each pair; 0 if seldom needed.
+    };
+
     std::vector<Define> defines(uint keys) const;
     cl::Kernel kernel(const char* path, const char* name, uint keys) const;
-    cl::Kernel word_kernel(uint pass, uint keys) const;
     uint first_pass_within(uint bits) const;
+    cl::Kernel word_kernel(uint keys, uint reads, uint writes, uint if_runs, bool is_narrow) const;
+    void plan_narrowing_passes(uint keys);
+    void plan_passes_of_parts(uint keys);
     void plan_at_once(Arena& arena, uint count);
     void plan_sweeps(Arena& arena, uint count);
+    uint epochs() const;
     void next_epochs(Queue& queue);
     std::int64_t bytes_at_once(uint count) const;
+    void count_digits(const Buffer<uint>& codes, uint count, Queue& queue);
     void sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& ids_a,
-               const Buffer<uint>& ids_b, const Buffer<uint>& result, uint count, bool is_counted,
-               Queue& queue);
+               const Buffer<uint>& ids_b, uint count, Queue& queue);
+    void sweep_words(const Buffer<uint>& unsorted, const std::array<Buffer<uint>, 2>& words,
+                     const Buffer<uint>& result, uint count, Queue& queue);
 
     Programs& programs_;
     uint code_bits_, code_words_, passes_, group_size_, keys_, most_keys_at_once_, units_;
@@ -82,14 +98,14 @@ private:
          is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0, size_ = 0;
     cl::Kernel count_, sort_;
-    std::array<cl::Kernel, most_tile_passes> sort_words_;  ///< By pass.
-    uint id_bits_ = 0;                                     ///< Of a word.
-    uint pair_passes_ = 0;  ///< First passes, over codes and ids apart; the others sort words.
-    uint narrow_pass_ = 0;  ///< From this pass on, words have 32 bits.
-    uint epoch_ = 1;        ///< Epoch of the next pass.
-    uint turn_ = 0;         ///< Index of the counters of the next sort.
-    std::array<Buffer<uint>, 2>
-        counters_;  ///< sweep.cl only: a row of digits per pass, then the tiles taken in each pass.
+    std::vector<WordPass> word_passes_;  ///< In the order of their launches.
+    cl::Kernel expect_runs_,
+        sort_runs_;     ///< Of codes of 64 bits: before all passes, and after those of high parts.
+    uint id_bits_ = 0;  ///< Of a word.
+    uint low_passes_ = 0;                   ///< By the low parts of codes of 64 bits.
+    uint epoch_ = 1;                        ///< Epoch of the next pass.
+    uint turn_ = 0;                         ///< Index of the counters of the next sort.
+    std::array<Buffer<uint>, 2> counters_;  ///< With a launch for each pass: see sweep_tile.clh.
     Buffer<ulong>
         states_;  ///< A row of digits per tile; in one launch twice those of tile_sums.clh, then those of order_at_once.cl.
     Buffer<ulong> posts_;  ///< In one launch: pairs on their way between passes (at_once.clh).
