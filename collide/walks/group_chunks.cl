@@ -32,16 +32,13 @@ static inline uint step_of(const uint hit) { return hit >> LANES & 0xffu; }
 static inline uint leaf_of(const uint hit) { return hit >> (LANES + 8u); }
 
 /// Writes to `steps` the steps of `line`, from `first` on, that overlap a block's box; returns their number.
-static inline uint near_steps(const Line* own, const uint begin, const uint end, const Line* line,
-                              const uint first, const uint count, uchar* steps)
+static inline uint near_steps(const Aabb block, const Line* line, const uint first,
+                              const uint count, uchar* steps)
 {
-    Aabb common = box_at(own, begin);
-    for (uint k = begin + 1u; k < end; ++k)
-        common = merged(common, box_at(own, k));
     uint found = 0u;
     for (uint step = first; step * LANES < count; ++step) {
         steps[found] = (uchar)step;
-        found += lanes_that_meet(line, step, common) != 0u ? 1u : 0u;
+        found += lanes_that_meet(line, step, block) != 0u ? 1u : 0u;
     }
     return found;
 }
@@ -93,17 +90,18 @@ static inline void put_hits(const Line* own, const Line* line, const uint* hits,
     }
 }
 
-/// Finds the pairs of the task's `own_count` leaves and a line, possibly the same line. Returns the number of box tests.
-static inline uint hold_against(Line* own, const uint own_count, Line* line, const uint count,
-                                global const Face* faces, global uint2* pairs, const uint capacity,
-                                volatile global uint* counters)
+/// Finds the pairs of the task's `own_count` leaves, whose blocks have the boxes `blocks`, and a line, possibly the same line. Returns
+/// the number of box tests.
+static inline uint hold_against(Line* own, const uint own_count, const Aabb* blocks, Line* line,
+                                const uint count, global const Face* faces, global uint2* pairs,
+                                const uint capacity, volatile global uint* counters)
 {
     uchar steps[LINE_STEPS];
     uint hits[TASK_LEAVES * LINE_STEPS + 1u];
     uint tests = 0u, found = 0u;
     for (uint begin = 0u; begin < own_count; begin += LANES) {
         const uint end = min(own_count, begin + LANES), first = own == line ? begin / LANES : 0u;
-        const uint near = near_steps(own, begin, end, line, first, count, steps);
+        const uint near = near_steps(blocks[begin / LANES], line, first, count, steps);
         found += hits_of(own, begin, end, line, steps, near, hits + found);
         tests += divided_up(count, LANES) - first + near * (end - begin);
     }
@@ -124,9 +122,21 @@ static inline uint hold_against(Line* own, const uint own_count, Line* line, con
     return LANES * tests;
 }
 
-/// Loads the task's leaves, with `some` only those that overlap `whole`, and their common box. Returns their number.
+/// Grows `whole` by a box: an instruction a side, where fmin and fmax take several, as they allow NaN.
+static inline void grow(Aabb* whole, const Aabb box)
+{
+    whole->min_x = box.min_x < whole->min_x ? box.min_x : whole->min_x;
+    whole->min_y = box.min_y < whole->min_y ? box.min_y : whole->min_y;
+    whole->min_z = box.min_z < whole->min_z ? box.min_z : whole->min_z;
+    whole->max_x = box.max_x > whole->max_x ? box.max_x : whole->max_x;
+    whole->max_y = box.max_y > whole->max_y ? box.max_y : whole->max_y;
+    whole->max_z = box.max_z > whole->max_z ? box.max_z : whole->max_z;
+}
+
+/// Loads the task's leaves, with `some` only those that overlap `whole`, the boxes of their blocks and their common box. Returns their
+/// number.
 static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool some,
-                           const Aabb whole, Line* own, Aabb* common)
+                           const Aabb whole, Line* own, Aabb* blocks, Aabb* common)
 {
     uint count = 0u;
     *common = empty_box();
@@ -135,8 +145,11 @@ static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool s
         if (some && !overlap(box, whole))
             continue;
         own->triangle[count] = leaf_triangle_of(FOREST, task.own, place);
+        if (count % LANES == 0u)
+            blocks[count / LANES] = empty_box();
+        grow(&blocks[count / LANES], box);
+        grow(common, box);
         set_box(own, count++, box);
-        *common = merged(*common, box);
     }
     close_line(own, count);
     return count;
@@ -150,6 +163,7 @@ kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global cons
     const uint count = task_count(TASKS, counters);
     ulong tests = 0ul;
     Line own, line;
+    Aabb blocks[TASK_LEAVES / LANES + 1u];
     Walk walk;
     for (uint k = atomic_inc(counters + TASKS_BEGUN); k < count;
          k = atomic_inc(counters + TASKS_BEGUN)) {
@@ -159,14 +173,14 @@ kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global cons
         const bool some = SKIP_OVERLAP && !is_own;
         const Aabb whole = tree_box(TREE, tree_root(TREE));
         Aabb common;
-        const uint near = line_up(FOREST, task, some, whole, &own, &common);
+        const uint near = line_up(FOREST, task, some, whole, &own, blocks, &common);
         tests += some ? task.count : 0u;
         if (is_own)
-            tests += hold_against(&own, near, &own, near, faces, pairs, capacity, counters);
+            tests += hold_against(&own, near, blocks, &own, near, faces, pairs, capacity, counters);
         begin_walk(TREE, ropes, task, common, &walk);
         while (near != 0u && has_more(&walk)) {
             const uint met = fill_line(TREE, ropes, &walk, &line, &tests);
-            tests += hold_against(&own, near, &line, met, faces, pairs, capacity, counters);
+            tests += hold_against(&own, near, blocks, &line, met, faces, pairs, capacity, counters);
         }
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);
