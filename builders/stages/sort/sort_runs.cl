@@ -4,6 +4,7 @@
 // Between the passes of sweep_words.cl by the high parts of codes and those by all of a code: sorts each run of equal high parts by the
 // low parts.
 #include "builders/stages/sort/sweep_tile.clh"
+#include "geometry/dialect.h"
 
 #define MOST_IN_A_RUN 32u
 
