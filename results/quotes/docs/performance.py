@@ -51,6 +51,18 @@ def two_cores(doc: Document) -> None:
         for name in ("oibvh-host", multi))))
 
 
+def frames_of_two_cores(doc: Document) -> None:
+    """What the frames of three scenes take, to what they took."""
+    files = [File(f"pocl-2-cores/frames-{name}").cells for name in ("before", "after")]
+
+    def gains(*stages: str) -> list[float]:
+        return [us(now, *stages) / us(before, *stages) for before, now in zip(*files, strict=True)]
+
+    doc.says("`broad` takes {} of what it took on bunny_69451, {} on `unc_cloth_ball` and {} between the objects", *gains("broad"))
+    doc.says("a whole frame\n{}, {} and {}, with", *gains())
+
+
 def quotes(doc: Document) -> None:
     gpu(doc)
+    frames_of_two_cores(doc)
     two_cores(doc)
