@@ -53,7 +53,7 @@ def two_cores(doc: Document) -> None:
 
 def frames_of_two_cores(doc: Document) -> None:
     """What the frames of three scenes take, to what they took."""
-    files = [File(f"pocl-2-cores/frames-{name}").cells for name in ("before", "after")]
+    files = [File(f"turns/frames-{name}").cells for name in ("before", "after")]
 
     def gains(*stages: str) -> list[float]:
         return [us(now, *stages) / us(before, *stages) for before, now in zip(*files, strict=True)]

@@ -5,7 +5,7 @@ STAGES = ("sort", "sort", "codes", "order")
 
 
 def quotes(doc: Document) -> None:
-    files = [File(f"pocl-2-cores/sorts-{name}") for name in ("before", "after")]
+    files = [File(f"turns/sorts-{name}") for name in ("before", "after")]
 
     def of(order: str, *stages: str) -> list[float]:
         return [us(file.cell("torus:2880000", f"oibvh-multi{order}"), *stages) / 1000 for file in files]
