@@ -14,7 +14,7 @@ std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions
 std::unique_ptr<Builder> make_oibvh_multi_printed(Programs& programs, const BuildOptions& options);
 
 /// Algorithm 1 in one launch: above the subtrees of single groups, a few groups wait for the others where they may, else the last
-/// group to arrive below a subtree builds it.
+/// group to arrive below a subtree builds it. Where groups may wait but there would be too many, as `make_oibvh_multi`.
 std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options);
 
 /// The same as printed: above the subtrees, groups meet node by node through global atomics, and one work-item goes on.
