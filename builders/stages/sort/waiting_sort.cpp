@@ -30,14 +30,6 @@ constexpr uint wide_tile_bytes = 40 << 10;
 
 constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
 
-/// Passes by the high parts of codes of 64 bits: of at most 32 bits, which fit beside an id.
-constexpr uint high_passes = 4;
-
-// Values of READS, WRITES and IF_RUNS in sweep_words.cl.
-constexpr uint words = 0, codes_of_32 = 1, ids = 1, low_parts = 2, narrowed_words = 2,
-               high_parts = 3;
-constexpr uint have_any_length = 0, are_short = 1, are_long = 2;
-
 /// Fewest keys per work-item in one launch: with fewer, there are more groups, which wait for each other.
 constexpr uint fewest_keys = 2;
 
@@ -76,60 +68,15 @@ cl::Kernel WaitingSort::kernel(const char* path, const char* name, uint keys) co
     return programs_.kernel(path, name, all, Optimise::on_gpus);
 }
 
-/// Returns the kernel of a pass over words, which may be narrow: of 32 bits.
-cl::Kernel WaitingSort::word_kernel(uint keys, uint reads, uint writes, uint if_runs,
-                                    bool is_narrow) const
+cl::Kernel WaitingSort::word_kernel(const WordPass& pass, uint keys) const
 {
     std::vector<Define> all = defines(keys);
-    all.insert(all.end(), {{"CODE_WORDS", is_narrow ? 1u : 2u},
-                           {"READS", reads},
-                           {"WRITES", writes},
-                           {"IF_RUNS", if_runs}});
+    all.insert(all.end(), {{"CODE_WORDS", pass.is_narrow ? 1u : 2u},
+                           {"READS", static_cast<uint>(pass.reads)},
+                           {"WRITES", static_cast<uint>(pass.writes)},
+                           {"IF_RUNS", static_cast<uint>(pass.if_runs)}});
     return programs_.kernel("builders/stages/sort/sweep_words.cl", "sweep_words", all,
                             Optimise::on_gpus);
-}
-
-/// Returns the first pass before which an id and the digits of the code that are left fit into `bits`, or `passes_`.
-uint WaitingSort::first_pass_within(uint bits) const
-{
-    for (uint pass = 1; pass < passes_; ++pass)
-        if (code_bits_ - pass * tile_digit_bits + id_bits_ <= bits)
-            return pass;
-    return passes_;
-}
-
-/// Plans the passes over codes of 32 bits.
-void WaitingSort::plan_narrowing_passes(uint keys)
-{
-    const uint narrow = first_pass_within(32);
-    const auto size = [&](uint pass) { return pass == 0 || pass >= narrow ? 1u : 2u; };
-    for (uint pass = 0; pass < passes_; ++pass) {
-        const bool ends = pass + 1 == passes_;
-        const uint writes = ends ? ids : pass + 1 == narrow ? narrowed_words : words;
-        word_passes_.push_back({word_kernel(keys, pass == 0 ? codes_of_32 : words, writes,
-                                            have_any_length, pass >= narrow),
-                                pass, pass >= narrow ? narrow : 0, pass == 0, ends,
-                                size(pass) + (ends ? 1 : size(pass + 1))});
-    }
-}
-
-/// Plans the passes over codes of 64 bits: by their high parts, and by all for the case that runs are long.
-void WaitingSort::plan_passes_of_parts(uint keys)
-{
-    const uint low = low_passes_;
-    expect_runs_ = kernel("builders/stages/sort/sort_runs.cl", "expect_runs", keys);
-    sort_runs_ = kernel("builders/stages/sort/sort_runs.cl", "sort_runs", keys);
-    for (uint pass = low; pass < passes_; ++pass)
-        word_passes_.push_back(
-            {word_kernel(keys, pass == low ? high_parts : words, words, are_short, false), pass,
-             low, pass == low, false, 4});
-    for (uint pass = 0; pass < passes_; ++pass) {
-        const bool ends = pass + 1 == passes_;
-        const uint writes = ends ? ids : pass + 1 == low ? high_parts : words;
-        word_passes_.push_back(
-            {word_kernel(keys, pass == 0 ? low_parts : words, writes, are_long, false), pass,
-             pass < low ? 0 : low, pass == 0, ends, 0});
-    }
 }
 
 cl::Kernel WaitingSort::beginning_with(const char* path, const char* name,
@@ -150,7 +97,6 @@ void WaitingSort::plan(Arena& arena, std::size_t size, bool keeps_codes)
     const auto count = static_cast<uint>(size);
     size_ = count;
     id_bits_ = ceil_log2(std::max(count, 1u));
-    low_passes_ = code_words_ == 1 ? 0 : passes_ - high_passes;
     if (is_at_once_)
         plan_at_once(arena, count);
     else
@@ -179,11 +125,16 @@ void WaitingSort::plan_sweeps(Arena& arena, uint count)
     count_ = kernel("builders/stages/sort/sweep.cl", "count_digits", keys);
     if (!sorts_words())
         sort_ = kernel("builders/stages/sort/sweep.cl", "sweep", keys);
-    word_passes_.clear();
-    if (sorts_words() && code_words_ == 1)
-        plan_narrowing_passes(keys);
-    else if (sorts_words())
-        plan_passes_of_parts(keys);
+    word_passes_.clear(), word_kernels_.clear();
+    if (sorts_words())
+        word_passes_ = low_passes() > 0 ? passes_of_parts(passes_)
+                                        : narrowing_passes(code_bits_, tile_digit_bits, id_bits_);
+    for (const WordPass& pass : word_passes_)
+        word_kernels_.push_back(word_kernel(pass, keys));
+    if (sorts_words() && low_passes() > 0) {
+        expect_runs_ = kernel("builders/stages/sort/sort_runs.cl", "expect_runs", keys);
+        sort_runs_ = kernel("builders/stages/sort/sort_runs.cl", "sort_runs", keys);
+    }
     for (Buffer<uint>& counters : counters_)
         counters = arena.take<uint>(most_tile_passes * (digits + 1) + 1, Use::scratch);
     states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * digits, Use::scratch);
@@ -295,21 +246,21 @@ void WaitingSort::sweep_words(const Buffer<uint>& unsorted, const std::array<Buf
                               const Buffer<uint>& result, uint count, Queue& queue)
 {
     const std::int64_t word_bytes = std::int64_t{count} * sizeof(uint);
-    if (low_passes_ > 0) {
-        set_arguments(expect_runs_, counters_[turn_], count, low_passes_, passes_);
+    if (low_passes() > 0) {
+        set_arguments(expect_runs_, counters_[turn_], count, low_passes(), passes_);
         queue.launch(expect_runs_, group_size_, group_size_,
                      std::int64_t{high_passes * digits} * std::int64_t{sizeof(uint)});
     }
     for (uint k = 0; k < word_passes_.size(); ++k) {
-        WordPass& own = word_passes_[k];
-        const bool is_before_runs = low_passes_ > 0 && k < high_passes;
+        const WordPass& own = word_passes_[k];
+        const bool is_before_runs = low_passes() > 0 && k < high_passes;
         const uint from = is_before_runs ? (own.pass + 1) % 2 : own.pass % 2;
-        set_arguments(own.kernel, own.begins ? unsorted : two[from],
-                      own.ends ? result : two[1 - from], counters_[turn_], counters_[1 - turn_],
-                      states_, count, own.pass, epoch_ + k, own.first_pass, id_bits_, unsorted,
-                      low_passes_ * tile_digit_bits);
-        queue.launch(own.kernel, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
-                     own.moved * word_bytes);
+        set_arguments(word_kernels_[k], own.reads == WordPass::Reads::words ? two[from] : unsorted,
+                      own.writes == WordPass::Writes::ids ? result : two[1 - from],
+                      counters_[turn_], counters_[1 - turn_], states_, count, own.pass, epoch_ + k,
+                      own.first_pass, id_bits_, unsorted, low_passes() * tile_digit_bits);
+        queue.launch(word_kernels_[k], std::size_t{divided_up(count, tile_)} * group_size_,
+                     group_size_, own.moved * word_bytes);
         if (is_before_runs && k + 1 == high_passes) {
             set_arguments(sort_runs_, two[1 - from], unsorted, result, counters_[turn_], count,
                           id_bits_);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "builders/stages/sort/word_passes.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -64,22 +65,10 @@ public:
                  Queue& queue);
 
 private:
-    /// A launch of sweep_words.cl.
-    struct WordPass {
-        cl::Kernel kernel;
-        uint pass;        ///< Of its digit.
-        uint first_pass;  ///< Of the lowest digit in the words that it reads.
-        bool begins;      ///< It reads codes.
-        bool ends;        ///< It writes to `result`.
-        uint moved;       ///< Words of 32 bits, read and written for each pair; 0 if seldom needed.
-    };
-
     std::vector<Define> defines(uint keys) const;
     cl::Kernel kernel(const char* path, const char* name, uint keys) const;
-    uint first_pass_within(uint bits) const;
-    cl::Kernel word_kernel(uint keys, uint reads, uint writes, uint if_runs, bool is_narrow) const;
-    void plan_narrowing_passes(uint keys);
-    void plan_passes_of_parts(uint keys);
+    cl::Kernel word_kernel(const WordPass& pass, uint keys) const;
+    uint low_passes() const { return code_words_ == 1 ? 0 : passes_ - high_passes; }
     void plan_at_once(Arena& arena, uint count);
     void plan_sweeps(Arena& arena, uint count);
     uint epochs() const;
@@ -98,13 +87,13 @@ private:
          is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0, size_ = 0;
     cl::Kernel count_, sort_;
-    std::vector<WordPass> word_passes_;  ///< In the order of their launches.
+    std::vector<WordPass> word_passes_;
+    std::vector<cl::Kernel> word_kernels_;  ///< Of each word pass.
     cl::Kernel expect_runs_,
-        sort_runs_;     ///< Of codes of 64 bits: before all passes, and after those of high parts.
+        sort_runs_;     ///< Of codes of 64 bits: before and after the first high_passes.
     uint id_bits_ = 0;  ///< Of a word.
-    uint low_passes_ = 0;                   ///< By the low parts of codes of 64 bits.
-    uint epoch_ = 1;                        ///< Epoch of the next pass.
-    uint turn_ = 0;                         ///< Index of the counters of the next sort.
+    uint epoch_ = 1;    ///< Epoch of the next pass.
+    uint turn_ = 0;     ///< Index of the counters of the next sort.
     std::array<Buffer<uint>, 2> counters_;  ///< With a launch for each pass: see sweep_tile.clh.
     Buffer<ulong>
         states_;  ///< A row of digits per tile; in one launch twice those of tile_sums.clh, then those of order_at_once.cl.
