@@ -9,6 +9,7 @@
 #include <csignal>
 #include <functional>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "plugins/loaded.h"

@@ -9,6 +9,7 @@
 
 #include "harness/base/json_keys.h"
 #include "harness/record/earlier_runs.h"
+#include "harness/record/end_of_run.h"
 #include "harness/record/journal.h"
 #include "harness/record/output.h"
 #include "harness/record/record.h"
@@ -26,14 +27,6 @@ struct Resuming {
 
 /// Returns the rules for a result file. With `resumes`, a result file may be replaced, because its cells are kept.
 OutputRules result_rules(bool force, std::vector<std::string> inputs, bool resumes = false);
-
-/// What is known of a run only when it ends.
-struct EndOfRun {
-    std::int64_t compile_ns = 0;
-    std::vector<std::string> turns_with = {};  ///< ids of the runs that this run took turns with
-    /// Mean number of them that wanted to run between samples.
-    std::optional<double> other_processes = {};
-};
 
 /// A result file. While its run goes on, its cells are in a journal beside it (journal.h); the file is written when the run ends, also
 /// by a signal, and the journal is removed. Devices and pipes have no journal and are written once. An existing file stays until a cell

@@ -13,7 +13,7 @@
 #include "harness/base/common_options.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/sampling.h"
-#include "harness/record/result_file.h"
+#include "harness/record/end_of_run.h"
 #include "harness/session/other_processes.h"
 #include "harness/session/pocl_cache.h"
 #include "harness/session/turns.h"
@@ -21,6 +21,7 @@
 
 namespace bvhbench {
 
+struct Cell;
 struct Measurement;
 
 /// The sampler of a program with one of its own (benchmarks/). Empty functions leave it to the engine (measure/engine.h).
