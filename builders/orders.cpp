@@ -23,6 +23,8 @@ constexpr OrderEntry catalog[] = {
     {"hilbert30+kd1024", "as hilbert30, then exact medians within blocks of 1,024 leaves", 30, true,
      false, Medians::in_blocks},
     {"kd", "exact medians at every level of the tree", 0, false, false, Medians::everywhere},
+    {"morton24", "Morton code of the box centre, 8 bits an axis", 24, false},
+    {"hilbert24", "Hilbert code of the box centre, 8 bits an axis", 24, true},
 };
 
 }  // namespace

@@ -15,11 +15,13 @@ namespace bvhbench {
 /// Returns the 32-bit words of a code in device memory: one, or two with the low word first.
 constexpr uint code_words(unsigned code_bits) { return code_bits > 32 ? 2 : 1; }
 
-/// Returns the bits of a box's code that are kept below the object number: as many as the code's words have room for.
+/// Returns the bits of a box's code that are kept below the object number: as many as the code's words have room for, or the 24 bits
+/// of a code that is sorted in a pass less.
 constexpr uint kept_code_bits(unsigned code_bits, std::size_t objects)
 {
     const uint object_bits = ceil_log2(static_cast<uint>(objects));
-    return std::min(code_bits, 32 * code_words(code_bits) - object_bits);
+    const uint room = code_bits <= 24 ? 24 : 32 * code_words(code_bits);
+    return std::min(code_bits, room - object_bits);
 }
 
 /// Stage `codes`: computes one code of code_words() words per leaf box, in an order of the catalog. With several objects a code

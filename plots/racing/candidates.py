@@ -84,7 +84,7 @@ class Product:
         if self.asked.objective == "memory":
             return "orders hold equal memory" if name != FIRST_OPTIONS["order"] else ""
         is_short = text.startswith(("30 bits", "no codes")) and not name.endswith("-axis")
-        return "" if is_short else "codes of more than 30 bits, or of stretched cells: --orders"
+        return "" if is_short else "codes of another length than 30 bits, or of stretched cells: --orders"
 
     def all_builders(self) -> list[Json]:
         choices = []

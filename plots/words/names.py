@@ -15,7 +15,7 @@ OUTSIDE: dict[str, None] = {}
 
 # Orders of leaves as in `list orders`. A figure shows an order by its place here, so that its number is the same in all figures.
 ORDERS = ("morton30", "morton48", "morton63", "hilbert30", "hilbert48", "hilbert63", "morton30-axis", "morton48-axis",
-          "morton63-axis", "hilbert30-axis", "hilbert48-axis", "hilbert63-axis", "hilbert30+kd1024", "kd")
+          "morton63-axis", "hilbert30-axis", "hilbert48-axis", "hilbert63-axis", "hilbert30+kd1024", "kd", "morton24", "hilbert24")
 
 # The default of each option and the wording of another value, in the order in which names show them.
 OPTIONS = {"no_skip": ("", "without {}"), "force_skip": ("", "{} forced"),

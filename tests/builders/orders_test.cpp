@@ -63,6 +63,8 @@ TEST(Orders, OfMoreBitsGoOnWhereThoseOfFewerEnd)
             EXPECT_EQ(code("morton48") >> 18, code("morton30"));
             EXPECT_EQ(code("morton63") >> 15, code("morton48"));
             EXPECT_LT(code("hilbert48"), ulong{1} << 48);
+            EXPECT_EQ(find_order("hilbert30").code(box, bounds) >> 6,
+                      find_order("hilbert24").code(box, bounds));
         }
 }
 

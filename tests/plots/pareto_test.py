@@ -83,8 +83,8 @@ class Figure(InFolder):
         drawing = pareto_orders.draw(self.many(with_tests=False))
         device, host = drawing.axes[:2]
         self.assertEqual(len(drawing.axes), 4)
-        self.assertEqual(len(device.lines) - 1, 28)  # without the front
-        self.assertEqual(sorted(int(text.get_text()) for text in device.texts), sorted(2 * list(range(1, 15))))
+        self.assertEqual(len(device.lines) - 1, 32)  # without the front
+        self.assertEqual(sorted(int(text.get_text()) for text in device.texts), sorted(2 * list(range(1, 17))))
         self.assertEqual((len(host.lines) - 1, len(host.texts)), (1, 0))
         low, high = device.get_ylim()
         for line in device.lines:
@@ -95,14 +95,14 @@ class Figure(InFolder):
         for cell in run.cells:
             cell.builder = {"apetrei-fused": "hploc", "oibvh-multi": "oibvh-wide8"}.get(cell.builder, cell.builder)
         device = pareto_orders.draw(run).axes[0]
-        self.assertEqual(len(device.texts), 28)
+        self.assertEqual(len(device.texts), 32)
         wide = [line for line in device.lines if line.get_marker() == style.look("oibvh-wide8").marker]
-        self.assertEqual([(len(wide), line.get_markerfacecolor()) for line in wide], 14 * [(14, "white")])
+        self.assertEqual([(len(wide), line.get_markerfacecolor()) for line in wide], 16 * [(16, "white")])
 
     def test_numbers_an_order_alike_in_all_files(self) -> None:
         catalog = (ROOT / "builders" / "orders.cpp").read_text(encoding="utf-8")
         self.assertEqual(tuple(re.findall(r'^    \{"([^"]+)", ', catalog, re.MULTILINE)), names.ORDERS)
-        self.assertEqual(names.numbers(["morton63", "mine", "morton30-axis"]), {"morton63": 3, "morton30-axis": 7, "mine": 15})
+        self.assertEqual(names.numbers(["morton63", "mine", "morton30-axis"]), {"morton63": 3, "morton30-axis": 7, "mine": 17})
         self.assertEqual(names.numbers(["morton30-axis", "morton63"]), {"morton63": 3, "morton30-axis": 7})
 
     def test_has_a_second_row_for_box_tests_and_keeps_its_numbers_apart(self) -> None:
