@@ -23,6 +23,7 @@ function(add_kernel_checks)
                             -fsyntax-only -Wall -Wextra -Werror ${defines}
                             "-I${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${kernel}")
             endforeach()
+            at_night(kernel.${name}.${variant}.CL1.2)  # by day the next one stands for it
             # With device/builtins.clh alone, as in programs for PoCL 3.1 (device/program.cpp).
             add_test(NAME kernel.${name}.${variant}.builtins
                 COMMAND ${KERNEL_CLANG} -x cl -cl-std=CL1.2 -cl-no-stdinc -include opencl-c-base.h

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <numeric>
 #include <string_view>
+#include <vector>
 
 namespace bvhbench {
 
@@ -25,6 +26,13 @@ inline bool takes_few_cases() { return tests_take("few"); }
 inline bool takes_combination(std::initializer_list<int> values)
 {
     return takes_all_cases() || std::accumulate(values.begin(), values.end(), 0) % 2 == 0;
+}
+
+/// Returns the first `count` values; at night all.
+template <class Value>
+std::vector<Value> first_by_day(int count, std::initializer_list<Value> values)
+{
+    return {values.begin(), takes_all_cases() ? values.end() : values.begin() + count};
 }
 
 }  // namespace bvhbench

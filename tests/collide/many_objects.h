@@ -48,13 +48,13 @@ using ObjectsCase = std::tuple<Named, Named, KernelForm>;
 /// Returns a case of each kind of tree and of walk that tests objects first.
 inline std::vector<ObjectsCase> cases_of_objects()
 {
-    return {{{"leaf"}, {"oibvh-multi"}, KernelForm::groups},
-            {{"leaf"}, {"karras"}, KernelForm::chunks},
-            {{"group"}, {"oibvh-wide8"}, KernelForm::groups},
-            {{"group"}, {"oibvh-multi"}, KernelForm::chunks},
-            {{"block"}, {"hploc"}, KernelForm::groups},
-            {{"bvtt"}, {"oibvh-multi"}, KernelForm::groups},
-            {{"bvtt"}, {"apetrei-fused"}, KernelForm::chunks}};
+    return first_by_day<ObjectsCase>(4, {{{"leaf"}, {"oibvh-multi"}, KernelForm::groups},
+                                         {{"group"}, {"oibvh-multi"}, KernelForm::chunks},
+                                         {{"block"}, {"hploc"}, KernelForm::groups},
+                                         {{"bvtt"}, {"apetrei-fused"}, KernelForm::chunks},
+                                         {{"leaf"}, {"karras"}, KernelForm::chunks},
+                                         {{"group"}, {"oibvh-wide8"}, KernelForm::groups},
+                                         {{"bvtt"}, {"oibvh-multi"}, KernelForm::groups}});
 }
 
 inline PairList expected_pairs(const ManyObjects& many, Among among, bool keep_adjacent)

@@ -76,7 +76,7 @@ def bad_clock(kind: str) -> dict[str, str]:
     return {"LD_PRELOAD": SHIM, "BVHBENCH_BAD_CLOCK": kind}
 
 
-def test_a_clock_that_lies_is_not_believed():
+def night_test_a_clock_that_lies_is_not_believed():
     plan = experiment("clock.json", scenes=["soup:300"], builders=["oibvh-multi", "karras"], samples=5)
     collide = ("collide", "--builder", "oibvh-multi,karras", "--collider", "leaf", "--scene", "soup:300", "--samples", "3")
     commands = (BUILD, collide, ("run", plan, "--out", "r.json"), ("best", "soup:300", "--out", "best.json"), ("smoke",))
@@ -103,7 +103,7 @@ def test_a_program_that_is_stopped_now_and_then_still_believes_the_devices_clock
     expect(0, *BUILD, says="agrees", **bad_clock("stalls"))
 
 
-def test_samples_with_impossible_times_are_dropped_and_too_many_fail_the_cell():
+def night_test_samples_with_impossible_times_are_dropped_and_too_many_fail_the_cell():
     """Which launches are told wrong depends on how many the start takes: it may end with 3 already, and never with 0."""
     plan = experiment("some.json", scenes=["soup:300"], builders=["oibvh-multi", "perfect"], samples=5)
     for words, codes in ((("run", plan, "--out", "some-out.json"), (3, 4)), (("smoke",), (1, 3)),
@@ -176,7 +176,7 @@ def test_killed_at_any_time_it_leaves_its_cells_in_a_journal():
     print(f"  killed {kills} times, {written} with cells")
 
 
-def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
+def night_test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
     endless = r"\1\n    while (*(volatile global const uint*)\2 != 0xdeadbeefu) {}\n"
     kernels = planted_karras("hangs", r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless)
     scenes = ["soup:1", "soup:200", "soup:300"] if ALL_CASES else ["soup:1", "soup:300"]
@@ -247,7 +247,7 @@ def test_a_full_disk_is_one_sentence_and_keeps_what_was_there():
         assert old.read_text() == text and sorted(os.listdir(disk)) == ["fill", "r.json"], os.listdir(disk)
 
 
-def test_a_disk_that_fills_up_keeps_the_cells_that_found_room():
+def night_test_a_disk_that_fills_up_keeps_the_cells_that_found_room():
     with small_disk(128) as disk:
         if disk is None:
             return

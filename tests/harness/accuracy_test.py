@@ -38,7 +38,7 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
 
 
-def test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
+def night_test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
     out = expect(0, "accuracy", "--axis", "swept", "--scene", "cloth-ball:600:4", "torus:300", "--samples", "1",
                  "--filter", "/(leaf|grid)", "--out", "d", says="leaf over apetrei-fused")
     cells = valid("d/accuracy-swept.json")["cells"]
@@ -78,7 +78,7 @@ def test_accuracy_of_distances_misses_nothing_and_says_how_far_off_they_are():
     assert {cell["accuracy"]["method"] for cell in cells if "distance_error_most" in cell["counters"]} == {"within-f32", "within-f64"}, cells
 
 
-def test_accuracy_of_queries_misses_nothing_with_bounds():
+def night_test_accuracy_of_queries_misses_nothing_with_bounds():
     """Two edges that cross at a third of the step, and two that pass each other: by every method."""
     lines = ["-1,1,0,1,0,1", "1,1,0,1,0,1", "0,1,-1,1,1,1", "0,1,1,1,1,1", "-1,1,0,1,0,1", "1,1,0,1,0,1", "0,1,-1,1,-2,1", "0,1,1,1,-2,1"]
     apart = [line.replace("0,1,-1,1", "3,1,-1,1").replace("0,1,1,1,", "3,1,1,1,") for line in lines]

@@ -99,7 +99,7 @@ def test_a_wrong_collider_differs_from_a_kept_answer():
     assert {path: text for path, (text, _) in answers("wrong").items()} == {path: text for path, (text, _) in kept.items()}
 
 
-def test_many_pairs_are_hashed_on_the_device_and_only_their_list_condemns():
+def night_test_many_pairs_are_hashed_on_the_device_and_only_their_list_condemns():
     plane = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     count = 5800
     pathlib.Path("many.obj").write_text(plane * count + "".join(f"f {k} {k + 1} {k + 2}\n" for k in range(1, 3 * count, 3)))
@@ -113,7 +113,7 @@ def test_many_pairs_are_hashed_on_the_device_and_only_their_list_condemns():
     expect(4, *words, "--kernels", missing, says="CL_INVALID_KERNEL_NAME", XDG_CACHE_HOME=os.path.abspath("device"), **KERNELS)
 
 
-def test_two_processes_keep_one_answer():
+def night_test_two_processes_keep_one_answer():
     with contextlib.ExitStack() as stack:
         for process in [stack.enter_context(at_work(*LEAF, XDG_CACHE_HOME=os.path.abspath("both"), **KERNELS)) for _ in range(2)]:
             out, error = process.communicate(timeout=PATIENCE_S)
@@ -121,7 +121,7 @@ def test_two_processes_keep_one_answer():
     assert len(answers("both")) == 1
 
 
-def test_a_folder_with_too_many_files_is_emptied_and_one_that_cannot_be_is_none():
+def night_test_a_folder_with_too_many_files_is_emptied_and_one_that_cannot_be_is_none():
     found_by("many", *LEAF)
     path, = answers("many")
     path.unlink()

@@ -41,7 +41,7 @@ def test_answers_with_a_table_a_sentence_a_command_and_files() -> None:
     expect(2, "best", "torus:2000", *NARROWED, says="best.json is a result of 16 cells; --force replaces it")
 
 
-def test_is_for_builds_queries_and_memory_too() -> None:
+def night_test_is_for_builds_queries_and_memory_too() -> None:
     said = best(0, "soup:500", "--for", "build", "--builders", "oibvh-multi,median-split", "--orders", "morton30", "--out", "b.json")
     assert said.startswith("3 candidates for 1 scene\nbuilder ") and " a build" in said, said
     again, = re.findall("again, alone: bvhbench (build .*)", said)
@@ -75,7 +75,7 @@ def test_a_wrong_pipeline_never_wins() -> None:
     assert not run("show", "wrong.json").stdout.startswith("take"), "the file has a wrong answer"
 
 
-def test_takes_all_frames_unless_some_are_named() -> None:
+def night_test_takes_all_frames_unless_some_are_named() -> None:
     said = best(0, *(words := ("two-spheres:600:3", *FEW, "--pairs-of", "between")), "--out", "all.json")
     assert said.startswith("two-spheres:600:3: all 3 frames; --frames a:b takes those from a to before b\n4 ") and " --frames 0:\n" in said, said
     assert {cell["scene"]["frame"] for cell in valid("all.json")["cells"]} == {0, 1, 2}
@@ -87,21 +87,11 @@ def test_refuses_before_it_measures() -> None:
     pathlib.Path("wrong.npz").write_text("no mesh")
     pathlib.Path("broken.obj").write_text("v 0 0 0\nv 1 0 0\nf 1 2 9\n")
     for code, words, says in (
-            (2, ["nosuch"], "no scene is called 'nosuch'"),
-            (2, ["soup"], "ends in '' where a triangle count"),
-            (3, ["none.obj"], "none.obj"),
             (3, ["wrong.npz"], "wrong.npz is of a format that is not read"),
             (3, ["soup:70", "broken.obj"], "broken.obj has a triangle, 0, with vertex 8 of 2"),
-            (2, ["soup:70", "--builders", "karas"], "karas"),
-            (2, ["soup:70", "--colliders", "leaf,"], "no collider is called ''"),
             (2, ["soup:70", "--frames", "3:1"], "frames 3:1 are none"),
-            (2, ["soup:70", "--for", "speed"], "speed"),
             (2, ["soup:70", "--for", "build", "--within", "1%"], "--within is for pairs"),
             (2, ["soup:70", "--within", "1%", "--features"], "choose by --pairs-of between, of vertices and faces, or within, of edges"),
-            (2, ["soup:70", "--for", "build", "--frames", "0:2"], "--frames is for pairs"),
-            (2, ["soup:70", "--for", "build", "--colliders", "leaf"], "--colliders is for pairs"),
-            (2, ["--frames", "0:2"], "none is named"),
-            (2, ["soup:70", "--max-samples", "4"], "4 is not from 5 to 1000000"),
             (2, ["soup:70", "--builders", "oibvh-wide4", "--boxes", "u8", "--colliders", "leaf"], "nothing can be measured: oibvh-wide4 keeps its boxes"),
             (3, ["soup:70", "--out", "no/folder.json"], "there is no folder no"),
             (3, ["soup:70", "--device", "nosuch"], "nosuch")):

@@ -80,7 +80,7 @@ def with_mpirun(name: str, *lines: str) -> dict[str, str]:
     return {"PATH": f"{mpirun.parent.resolve()}:{os.environ['PATH']}"}
 
 
-def test_an_mpirun_that_hangs_is_ended():
+def night_test_an_mpirun_that_hangs_is_ended():
     deaf = "trap '' TERM"
     # Ranks that wait for their plan, without work for the processor, and end when it is empty.
     ranks = ("mkfifo $0.json", *[f"{PROGRAM} run $0.json >/dev/null 2>&1 &"] * 2, "sleep 10", ": >$0.json")
@@ -127,7 +127,7 @@ def test_lists_are_those_of_collide():
             assert abs(document["halo_share"] - sent / document["scene"]["triangles"]) < 1e-9
 
 
-def test_contacts_and_pairs_within_a_distance_are_those_of_collide():
+def night_test_contacts_and_pairs_within_a_distance_are_those_of_collide():
     for asked in (("--narrow", "exact"), ("--within", "1%")):
         narrow = (*asked, "--adjacent", "drop", "--samples", "1", "--force")
         expect(0, "collide", "--collider", "leaf", "--scene", "soup:5000", *narrow, "--contacts", "k1.csv")
@@ -240,12 +240,10 @@ def test_experiments_write_one_file():
     assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo", "plain-cluster"))
     expect(3, "plot", "two.json", "--out", "figures", says="its ranks shared a device, so there are no times")
     expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "never.json", says="weak needs a generator's name")
-    expect(2, "scale", "weak", "--scene", "nothing", "--out", "never.json", says="no scene is called 'nothing:33554432'")
     expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="4 of 4 parts that are none of this plan")
-    expect(2, "scale", "halo", "--ranks", "2,x", "--out", "never.json", says="--ranks is a list of rank counts")
 
 
-def test_scale_goes_on_where_it_was_interrupted():
+def night_test_scale_goes_on_where_it_was_interrupted():
     words = ("scale", "halo", "--scene", "torus:20000", "--ranks", "2,3,4", "--partition", "rcb", "--samples", "2", "--out", "on.json")
     with at_work(*words) as process:
         next(line for line in process.stdout if line.startswith("[2/6]"))
@@ -263,7 +261,7 @@ def test_scale_goes_on_where_it_was_interrupted():
     assert "[" not in expect(0, *words, says="written: on.json")
 
 
-def test_shares_of_a_plan_are_the_whole():
+def night_test_shares_of_a_plan_are_the_whole():
     asked = {"scene": "torus:2000", "samples": 1}
     entries = [{"ranks": 2, "share_devices": True}, {"simulate": 2, "boxes": 1}, {"ranks": 2}, {"simulate": 3, "partition": "curve"},
                {"ranks": 3, "share_devices": True, "builder": "karras", "narrow": "exact", "adjacent": "drop"}]
@@ -285,7 +283,7 @@ def test_shares_of_a_plan_are_the_whole():
     assert [cell["ranks_count"] for cell in results("filtered.json")] == [3]
 
 
-def test_what_is_simulated_is_what_ranks_send():
+def night_test_what_is_simulated_is_what_ranks_send():
     for count, partition, builder in ((3, "rcb", "oibvh-multi"), (8, "curve", "karras")):
         words = ("--partition", partition, "--builder", builder, "--samples", "1", "--force")
         expect(0, "cluster", "torus:20000", "--simulate", str(count), *words, "--json", "s.json", says="simulated: ")
@@ -376,7 +374,7 @@ def test_a_rank_without_memory_ends_all():
     assert out.stderr.count("\n") == 1 and not pathlib.Path("m.json").exists(), out
 
 
-def test_a_rank_that_hangs_ends_within_the_time_limit():
+def night_test_a_rank_that_hangs_ends_within_the_time_limit():
     child, mark = begun({"BVHBENCH_STOP": "build:1"}, "torus:2000", "--samples", "1", "--time-limit", "5")
     errors = ended(child, mark)
     assert child.returncode == 3 and "took longer than 5 s" in errors and errors.startswith("bvhbench: rank "), errors

@@ -5,7 +5,7 @@ import itertools
 import pathlib
 import sys
 
-from program import cells_after, expect, experiment, main, only
+from program import ALL_CASES, cells_after, expect, experiment, main, only
 
 LINKS = ("base", "upper_arm", "lower", "hand")
 COLLIDE = ("collide", "--scene", "arm.obj", "--samples", "1", "--force")
@@ -32,7 +32,7 @@ ALL = set(itertools.combinations_with_replacement(range(len(LINKS)), 2))
 
 def test_pairs_of_excluded_objects_are_not_in_the_answer():
     write_arm()
-    for collider in ("leaf", "group", "block", "bvtt", "brute"):
+    for collider in ("leaf", "group", "block", "bvtt", "brute") if ALL_CASES else ("group", "bvtt"):
         assert objects_found(collider=collider) == ALL
         assert objects_found("--exclude", "base,upper_arm", "--exclude", "3, 2", collider=collider) == ALL - {(0, 1), (2, 3)}
         assert objects_found("--exclude", "1,1;hand,base", collider=collider) == ALL - {(1, 1), (0, 3)}

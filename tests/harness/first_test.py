@@ -3,7 +3,7 @@
 import pathlib
 import sys
 
-from program import cells_after, copied_kernels, expect, experiment, main, only
+from program import ALL_CASES, cells_after, copied_kernels, expect, experiment, main, only
 
 COLLIDE = ("collide", "--collider", "leaf", "--samples", "2", "--force", "--first", "--scene")
 
@@ -17,8 +17,9 @@ def contacts_of(*words: str) -> set[str]:
 
 def test_a_cell_says_whether_there_is_a_contact():
     answers = set()
-    for words in (("two-spheres:1200:1",), ("two-spheres:1200:1", "--pairs-of", "between"), ("n-body:6100:3",), ("torus:700", "--adjacent", "drop"),
-                  ("n-body:6100:3", "--pairs-of", "within", "--adjacent", "drop"), ("n-body:6100:3", "--exclude", "0,0")):
+    questions = (("torus:700", "--adjacent", "drop"), ("two-spheres:1200:1",), ("n-body:6100:3", "--pairs-of", "within", "--adjacent", "drop"),
+                 ("two-spheres:1200:1", "--pairs-of", "between"), ("n-body:6100:3",), ("n-body:6100:3", "--exclude", "0,0"))
+    for words in questions if ALL_CASES else questions[:3]:
         there = contacts_of(*words)
         answer = "yes" if there else "no"
         answers.add(answer)

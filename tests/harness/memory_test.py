@@ -195,7 +195,7 @@ def test_a_run_goes_on_behind_a_scene_that_is_too_large():
     assert f"memory: {memory['peak_bytes'] // MIB} MiB at most, " in expect(0, "show", "three-out.json")
 
 
-def test_every_command_keeps_its_limit():
+def night_test_every_command_keeps_its_limit():
     many = copies(10000)
     for words in (("sweep", "--scenes", f"{many},torus:1000", "--builders", "karras", "--colliders", "leaf", "--samples", "1",
                    "--out", "swept"),
@@ -229,7 +229,7 @@ def test_files_of_numbers_that_are_short_meet_the_limit():
     refused(done, "out of host memory", "there is not enough memory for scene 'short.obj'")
 
 
-def test_a_group_of_processes_limits_without_being_asked():
+def night_test_a_group_of_processes_limits_without_being_asked():
     limit, scene = (1536, "torus:6000000") if FULL else (800, "torus:3000000")
     for limit, words in ((limit, ("build", "--builder", "karras", "--scene", scene, "--samples", "1")),
                          (450, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):

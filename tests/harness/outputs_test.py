@@ -85,7 +85,7 @@ def test_a_result_is_replaced_with_force_only():
     assert not pathlib.Path("kept.csv").read_bytes().startswith(b"{")
 
 
-def test_tuned_values_of_other_targets_are_kept():
+def night_test_tuned_values_of_other_targets_are_kept():
     device = valid("good.json")["run"]["device"]["name"]
     pathlib.Path("t.json").write_text(json.dumps({"format": "tuning 1", "device": device,
                                                   "values": {"walk.task_leaves": {"value": 8}}}))
@@ -94,7 +94,7 @@ def test_tuned_values_of_other_targets_are_kept():
         assert json.loads(pathlib.Path("t.json").read_text())["values"]["walk.task_leaves"]["value"] == 8
 
 
-def test_a_sweep_replaces_no_result_of_others():
+def night_test_a_sweep_replaces_no_result_of_others():
     sweep = ("sweep", "--name", "s", "--scenes", "soup:50", "--builders", "median-split", "--samples", "1", "--out", ".")
     for _ in range(2):
         shutil.copy("good.json", "s.json")
@@ -153,7 +153,7 @@ def test_links_are_followed_and_modes_kept():
     assert stat.S_IMODE(os.stat("real/new.json").st_mode) == 0o640
 
 
-def test_devices_and_pipes_are_written_to():
+def night_test_devices_and_pipes_are_written_to():
     os.mkfifo("pipe")
     read = []
     reader = threading.Thread(target=lambda: read.append(pathlib.Path("pipe").read_bytes()), daemon=True)

@@ -183,10 +183,11 @@ def ours() -> list[str]:
 
 
 def main(names: dict, begin: Callable[[], None] | None = None, at_a_time: int = 1) -> int:
-    """Runs every test of a script, or those with TESTS in their names, in a temporary folder. With `begin`, each test has its own
-    folder, prepared by `begin`. Tests that wait much and use no file of each other run `at_a_time`."""
+    """Runs every test of a script, at night also those called night_test_, or those with TESTS in their names, in a temporary folder.
+    With `begin`, each test has its own folder, prepared by `begin`. Tests that wait much and use no file of each other run `at_a_time`."""
     wanted = os.environ.get("TESTS", "")
-    tests = {name.removeprefix("test_"): value for name, value in names.items() if name.startswith("test_") and wanted in name}
+    begins = ("test_", "night_test_") if ALL_CASES or wanted else "test_"
+    tests = {name.split("test_", 1)[1]: value for name, value in names.items() if name.startswith(begins) and wanted in name}
 
     def passes(name: str, test: Callable[[], None]) -> None:
         started = time.monotonic()

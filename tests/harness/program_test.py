@@ -103,7 +103,7 @@ def lines_of(shown: str) -> list[str]:
     return re.split("[\r\n]+(?:\x1b\\[K)?", shown)
 
 
-def test_a_terminal_has_narrow_lists_and_the_time_that_a_run_takes():
+def night_test_a_terminal_has_narrow_lists_and_the_time_that_a_run_takes():
     for what in ("scenes", "builders", "devices", "experiments"):
         narrow, whole = lines_of(on_a_terminal("list", what)), expect(0, "list", what)
         assert max(map(len, narrow)) <= 80 < max(map(len, whole.splitlines())), narrow
@@ -243,7 +243,7 @@ def test_check_finds_no_violation():
     expect(0, "check", "--builder", "oibvh-single", "--scene", "soup:1000", says="no violation")
 
 
-def test_stress_is_the_same_for_the_same_seed_and_shows_what_libraries_get_wrong():
+def night_test_stress_is_the_same_for_the_same_seed_and_shows_what_libraries_get_wrong():
     words = ("stress", "--quick", "--filter", "^scale/1e20/(oibvh-multi|leaf over karras|rtcCollide|FCL AABB)")
     for seed, path in (("3", "stress.json"), ("3", "again.json"), ("4", "other.json")):
         expect(0, *words, "--seed", seed, "--out", path, says="cells of ours, all right")

@@ -64,7 +64,7 @@ def test_what_is_broken_is_named_and_compiled_again_once_removed():
     assert set(kept_in("broken")) == set(whole)
 
 
-def test_a_folder_that_is_too_large_is_emptied_unless_others_are_at_work():
+def night_test_a_folder_that_is_too_large_is_emptied_unless_others_are_at_work():
     whole = kept_in("large")
     old = pathlib.Path("large/bvhbench/pocl/AA/OLD")
     old.mkdir(parents=True)
@@ -77,7 +77,7 @@ def test_a_folder_that_is_too_large_is_emptied_unless_others_are_at_work():
     assert set(kept_in("large")) == set(whole) and not old.exists()
 
 
-def test_several_may_start_at_a_time():
+def night_test_several_may_start_at_a_time():
     with contextlib.ExitStack() as stack:
         started = [stack.enter_context(at_work(*QUICK, XDG_CACHE_HOME=os.path.abspath("several"), POCL_CACHE_DIR="")) for _ in range(3)]
         for process in started:
@@ -129,7 +129,7 @@ def only_of(words: tuple[str, ...], **settings: str) -> dict:
     return only("only.json")["check"]
 
 
-def test_settings_for_another_python_or_matplotlib_change_nothing():
+def night_test_settings_for_another_python_or_matplotlib_change_nothing():
     expect(0, "build", "--builder", "perfect", "--scene", "soup:30", "--samples", "12", "--json", "r.json")
     for name in ("numpy", "matplotlib", "statistics"):
         pathlib.Path("foreign").mkdir(exist_ok=True)

@@ -80,7 +80,7 @@ def test_a_builder_is_judged_measured_by_turns_and_marked():
     assert max(orders[0]) > min(orders[1]) and max(orders[1]) > min(orders[0]), orders
 
 
-def test_a_short_build_runs_once_before_it_is_timed():
+def night_test_a_short_build_runs_once_before_it_is_timed():
     pathlib.Path("builds").unlink(missing_ok=True)
     agree(cells("build", *wrong("--plugin", "counted"), "--builder", "halves-counted", *QUICK), "halves-counted")
     assert len(pathlib.Path("builds").read_text()) > 7  # which are timed or checked
@@ -159,7 +159,7 @@ def facts_in(page: str) -> str:
     return gzip.decompress(base64.b64decode(re.search('id="blob-file-0">([^<]*)<', page)[1])).decode()
 
 
-def test_nanoseconds_that_are_given_as_microseconds_do_not_win():
+def night_test_nanoseconds_that_are_given_as_microseconds_do_not_win():
     """The program takes 50 times as long as `brute`, and says that it takes a twentieth of its time."""
     slip = wrong("--program", "microseconds")
     said = expect(0, "collide", *slip, "--plugin", GOOD, "--collider", "plain-microseconds,brute,halves", *QUICK[:-1], "5", "--json", "slip.json")
@@ -245,7 +245,7 @@ def test_a_gate_runs_what_is_from_outside_or_says_that_it_does_not():
     assert done.returncode == 0 and done.stderr.startswith("colliders from outside take no part in `check`"), done
 
 
-def test_one_that_hangs_is_ended():
+def night_test_one_that_hangs_is_ended():
     for option, right, command, ours_too, faults in (
             ("--plugin", GOOD, "build", "median-split", {"hang": "build", "stopped": "build", "hangs-at-start": "hello"}),
             ("--program", PLAIN, "collide", "brute", {"hang": "query"})):
@@ -334,7 +334,7 @@ def test_our_colliders_query_the_tree_of_a_builder():
     agree(cells("collide", "--plugin", GOOD, "--builder", "halves", "--collider", "leaf,group,block,bvtt", *QUICK), "leaf", "group", "block", "bvtt")
 
 
-def test_pairs_of_a_step_and_within_a_distance_are_held_to_the_oracles_and_skipped_where_a_method_does_not_say_it_can():
+def night_test_pairs_of_a_step_and_within_a_distance_are_held_to_the_oracles_and_skipped_where_a_method_does_not_say_it_can():
     rows = [f"v {x} {y} {z}" for x in (0, 1, 3, 6) for y, z in ((0, 0), (4, 0), (0, 4))] + ["v -0.5 1 1", "v 0.5 1 1", "v 0.5 1.2 1"]
     pathlib.Path("rows.obj").write_text("\n".join(rows + [f"f {k} {k + 1} {k + 2}\n" for k in range(1, 16, 3)]))
     wrong_ones = wrong("--plugin", *(faults := ("missed-pair", "false-pair", "contacts", "no-contacts")))
@@ -360,7 +360,7 @@ def test_pairs_of_a_step_and_within_a_distance_are_held_to_the_oracles_and_skipp
     agree(cells("collide", *wrong("--plugin", "version-2"), "--collider", "every-two-version-2", *QUICK), "every-two-version-2")
 
 
-def test_it_ends_with_the_program_that_started_it():
+def night_test_it_ends_with_the_program_that_started_it():
     for words in (("build", *wrong("--plugin", "hang"), "--builder", "halves-hang"),
                   ("collide", *wrong("--program", "hang"), "--collider", "plain-hang")):
         for happens in (lambda: any("--outside" in line or "fault-hang.py" in line for line in ours()), pathlib.Path("hangs").exists):
