@@ -20,7 +20,7 @@ constexpr uint code_words(unsigned code_bits) { return code_bits > 32 ? 2 : 1; }
 constexpr uint kept_code_bits(unsigned code_bits, std::size_t objects)
 {
     const uint object_bits = ceil_log2(static_cast<uint>(objects));
-    const uint room = code_bits <= 24 ? 24 : 32 * code_words(code_bits);
+    const uint room = std::max(code_bits, object_bits) <= 24 ? 24 : 32 * code_words(code_bits);
     return std::min(code_bits, room - object_bits);
 }
 
