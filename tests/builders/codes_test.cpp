@@ -30,6 +30,10 @@ Scene boxes_of(uint count, uint objects)
     return scene;
 }
 
+// The object's number leaves room in three passes, or in the word.
+static_assert(kept_code_bits(24, 1) == 24 && kept_code_bits(24, 305) == 15);
+static_assert(kept_code_bits(24, std::size_t{1} << 25) == 7 && kept_code_bits(30, 305) == 23);
+
 class CodesContract : public testing::TestWithParam<OrderEntry> {
 protected:
     /// Codes by groups, alone and with counts of their digits, are those of the host. A work-item makes several of them.

@@ -180,8 +180,7 @@ def night_test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
     endless = r"\1\n    while (*(volatile global const uint*)\2 != 0xdeadbeefu) {}\n"
     kernels = planted_karras("hangs", r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless)
     scenes = ["soup:1", "soup:200", "soup:300"] if ALL_CASES else ["soup:1", "soup:300"]
-    plan = experiment("hangs.json", scenes=scenes, builders=["perfect", "karras", "apetrei"],
-                      samples=2)
+    plan = experiment("hangs.json", scenes=scenes, builders=["perfect", "karras", "apetrei"], samples=2)
     # PoCL compiles kernels on their first use; a busy machine must not look like a hang.
     warm = ("run", plan, "--out", "warm.json", "--force", "--kernels", kernels, "--filter", "perfect|apetrei")
     expect(0, *warm)

@@ -87,14 +87,16 @@ def test_refuses_before_it_measures() -> None:
     pathlib.Path("wrong.npz").write_text("no mesh")
     pathlib.Path("broken.obj").write_text("v 0 0 0\nv 1 0 0\nf 1 2 9\n")
     for code, words, says in (
-            (3, ["wrong.npz"], "wrong.npz is of a format that is not read"),
-            (3, ["soup:70", "broken.obj"], "broken.obj has a triangle, 0, with vertex 8 of 2"),
-            (2, ["soup:70", "--frames", "3:1"], "frames 3:1 are none"),
-            (2, ["soup:70", "--for", "build", "--within", "1%"], "--within is for pairs"),
+            (2, ["nosuch"], "no scene is called 'nosuch'"), (2, ["soup"], "ends in '' where a triangle count"), (3, ["none.obj"], "none.obj"),
+            (3, ["wrong.npz"], "wrong.npz is of a format that is not read"), (2, ["--frames", "0:2"], "none is named"),
+            (3, ["soup:70", "broken.obj"], "broken.obj has a triangle, 0, with vertex 8 of 2"), (2, ["soup:70", "--builders", "karas"], "karas"),
+            (2, ["soup:70", "--colliders", "leaf,"], "no collider is called ''"), (2, ["soup:70", "--frames", "3:1"], "frames 3:1 are none"),
+            (2, ["soup:70", "--for", "speed"], "speed"), (2, ["soup:70", "--max-samples", "4"], "4 is not from 5 to 1000000"),
+            *((2, ["soup:70", "--for", "build", *words], f"{words[0]} is for pairs") for words in (
+                ("--within", "1%"), ("--frames", "0:2"), ("--colliders", "leaf"))),
             (2, ["soup:70", "--within", "1%", "--features"], "choose by --pairs-of between, of vertices and faces, or within, of edges"),
             (2, ["soup:70", "--builders", "oibvh-wide4", "--boxes", "u8", "--colliders", "leaf"], "nothing can be measured: oibvh-wide4 keeps its boxes"),
-            (3, ["soup:70", "--out", "no/folder.json"], "there is no folder no"),
-            (3, ["soup:70", "--device", "nosuch"], "nosuch")):
+            (3, ["soup:70", "--out", "no/folder.json"], "there is no folder no"), (3, ["soup:70", "--device", "nosuch"], "nosuch")):
         expect(code, "best", *words, says=says)
     expect(0, "best", "soup:70", "--builders", "karras", "--colliders", "leaf", "--within", "1%", "--features", "--pairs-of", "within",
            "--out", "edges.json", says="--pairs-of within --within 1% --features\n")

@@ -239,7 +239,9 @@ def test_experiments_write_one_file():
     expect(0, "plot", "strong.json", "halo.json", "plain.json", "--out", "figures")
     assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo", "plain-cluster"))
     expect(3, "plot", "two.json", "--out", "figures", says="its ranks shared a device, so there are no times")
-    expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "never.json", says="weak needs a generator's name")
+    for words, says in ((("weak", "--scene", "torus:2000"), "weak needs a generator's name"), (("halo", "--ranks", "2,x"), "is a list of rank counts"),
+                        (("weak", "--scene", "nothing"), "no scene is called 'nothing:33554432'")):
+        expect(2, "scale", *words, "--out", "never.json", says=says)
     expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="4 of 4 parts that are none of this plan")
 
 

@@ -69,8 +69,7 @@ def night_test_an_oracle_that_hangs_fails_the_cells_that_need_it():
 
 def test_collide_and_accuracy_go_on_after_a_scene_that_is_not_there():
     expect(0, *LEAF, "--scene", "soup:10", "nonsense", "soup:20", "--samples", "1", "--json", "collide.json")
-    assert [cell[:2] for cell in cells_of("collide.json")] == [("soup:10", "measured"), ("nonsense", "skipped"),
-                                                               ("soup:20", "measured")]
+    assert [cell[:2] for cell in cells_of("collide.json")] == [("soup:10", "measured"), ("nonsense", "skipped"), ("soup:20", "measured")]
     for axis in ("sums", "swept"):
         expect(0, "accuracy", "--axis", axis, "--scene", "nonsense", "--scene", "torus:100", "--samples", "3", "--out", ".",
                says="no scene is called 'nonsense'")

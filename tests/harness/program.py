@@ -34,8 +34,7 @@ _validator = jsonschema and jsonschema.Draft202012Validator(json.loads(SCHEMA.re
 
 
 def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=PATIENCE_S,
-                          env={**os.environ, **environment})
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=PATIENCE_S, env={**os.environ, **environment})
 
 
 def expect(code: int, *words: str, says: str = "", **environment: str) -> str:

@@ -23,8 +23,7 @@ def tuned_file(folder: str, **values: int) -> pathlib.Path:
 def test_tune_searches_checks_and_writes_what_is_then_used():
     tune = ("tune", "--scene", "torus:2000", "--quick", "--samples", "3", "--out", "tuned/t.json")
     pathlib.Path("tuned").mkdir()
-    for target, parameter in (("sort", "sort.chunk_digit_bits"), ("oibvh-multi", "chunks.per_core"),
-                              ("leaf", "walk.task_leaves")):
+    for target, parameter in (("sort", "sort.chunk_digit_bits"), ("oibvh-multi", "chunks.per_core"), ("leaf", "walk.task_leaves")):
         out = expect(0, *tune, target, says=f"tuned: {target} over torus:2000")
         assert f"\n{parameter} " in out and " current\n" in out, out
         file = json.loads(pathlib.Path("tuned/t.json").read_text())

@@ -78,8 +78,7 @@ class OfGoogleBenchmark(Exports):
             del one["samples"], one["check"]
         wrong = cell("perfect", check={"verdict": "differs", "detail": "node 3 is lost"})
         entries = self.benchmarks(self.written(document(failed, skipped, wrong)))
-        self.assertEqual([entry.get("error_message") for entry in entries],
-                         ["failed: it crashed", None, "differs: node 3 is lost"])
+        self.assertEqual([entry.get("error_message") for entry in entries], ["failed: it crashed", None, "differs: node 3 is lost"])
         self.assertEqual(entries[1]["skip_message"], "too large")
         self.assertEqual([entry["real_time"] for entry in entries], [0, 0, 0])
 

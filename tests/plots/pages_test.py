@@ -330,8 +330,7 @@ class OfTheCommand(unittest.TestCase):
 
     def test_a_path_is_named_as_it_was_given(self) -> None:
         for path in ("./no//where.json", ""):
-            self.assertEqual(self.show(path, 3),
-                             f"bvhbench: the result file '{path}' cannot be read: No such file or directory\n")
+            self.assertEqual(self.show(path, 3), f"bvhbench: the result file '{path}' cannot be read: No such file or directory\n")
 
     def test_of_a_folder_is_of_every_result_file_in_it(self) -> None:
         with tempfile.TemporaryDirectory() as name:
