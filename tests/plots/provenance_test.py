@@ -10,8 +10,9 @@ from base import ROOT, InFolder, cell, document  # first: it adds the source roo
 from plots.evidence import provenance
 
 # results/older.json has for each reason the files that do not speak of the kernels that are there. The list may only shrink: who
-# measures a file again takes it off and lowers this number. Who changes a kernel and cannot measure raises it, and says so.
-MOST_LISTED = 80
+# measures a file again takes it off and lowers this number. Who changes a kernel and cannot measure raises it, and says so. Files of
+# turns/ do not count: they are of a program before a change.
+MOST_LISTED = 78
 
 
 class ResultFiles(unittest.TestCase):
@@ -30,7 +31,7 @@ class ResultFiles(unittest.TestCase):
                  and name not in listed]
         wrong += [f"{name} is of these kernels: take it off results/older.json" for name in listed if not faults[name]]
         self.assertEqual(wrong, [], "\n".join(["", *wrong]))
-        self.assertLessEqual(len(listed), MOST_LISTED, "results/older.json may only shrink")
+        self.assertLessEqual(sum(not name.startswith("turns/") for name in listed), MOST_LISTED, "results/older.json may only shrink")
 
     def test_tell_what_is_wrong_with_them(self) -> None:
         head = provenance.git("rev-parse", "HEAD").decode().strip()

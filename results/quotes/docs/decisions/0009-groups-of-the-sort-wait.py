@@ -4,7 +4,7 @@ ORDERS = ("", ", morton63", ", hilbert30", ", kd")
 STAGES = ("sort", "sort", "codes", "order")
 
 
-def quotes(doc: Document) -> None:
+def two_cores(doc: Document) -> None:
     files = [File(f"turns/sorts-{name}") for name in ("before", "after")]
 
     def of(order: str, *stages: str) -> list[float]:
@@ -14,3 +14,29 @@ def quotes(doc: Document) -> None:
     rows.append(("", "triangles to tree", of("")))
     doc.table("two cores", "< order | < what | before, ms | now, ms | ratio", (
         [f"`{order[2:] or 'morton30'}`", f"`{what}`" if what in STAGES else what, before, now, f"{now / before:.2f}"] for order, what, (before, now) in rows))
+
+
+def wide_codes(doc: Document) -> None:
+    files = [File(f"turns/wide-codes-{name}") for name in ("before", "after")]
+    doc.table("wide codes", "< scene | `morton48`: before | now | `morton63`: before | now", (
+        [scene, *(us(file.cell(scene, f"oibvh-single, {order}"), "sort") for order in ("morton48", "morton63") for file in files)]
+        for scene in ("torus:2880000", "soup:2880000", "outlier:torus:2880000:0:400")))
+
+
+def short_codes(doc: Document) -> None:
+    cells = [cell for cell in File("turns/short-codes").cells if "hilbert" in cell.label]
+
+    def ratio(scene: str, frame: int, *stages: str) -> float:
+        long, short = (us(cell, *stages) for cell in cells if (cell.scene, cell.frame) == (scene, frame))
+        return short / long
+
+    meshes = "torus:144046", "torus:400000"
+    doc.says("take {} of the time along `hilbert30` for torus:144046 and {} for", *(ratio(mesh, 0, "order", "hierarchy") for mesh in meshes))
+    doc.says("exact contacts take {} and {}, the two of `unc_cloth_ball` {} and {} (", *(ratio(mesh, 0) for mesh in meshes),
+             *(ratio("unc_cloth_ball", frame) for frame in (0, 1)))
+
+
+def quotes(doc: Document) -> None:
+    two_cores(doc)
+    wide_codes(doc)
+    short_codes(doc)
