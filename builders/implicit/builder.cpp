@@ -28,7 +28,7 @@ private:
         return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, asked_, options_);
     }
 
-    void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue, false); }
+    void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue, 0); }
 
     /// A group kernel can line up leaves; a tree that is one leaf has no group.
     bool lines_up() const override
@@ -37,7 +37,7 @@ private:
                std::ranges::all_of(tree_.objects,
                                    [](const ForestObject& object) { return object.leaves > 1; });
     }
-    void enqueue_lining_up(Queue& queue) override { enqueue(whole_, queue, true); }
+    void enqueue_lining_up(Queue& queue) override { enqueue(whole_, queue, tree_.leaves); }
 
     /// If boxes are rounded to cells, the cells depend on all objects, so one moved object may change the boxes of all.
     bool can_update_some() const override { return !tree_.format->has_cells(); }
@@ -47,7 +47,10 @@ private:
         update_.plan(objects, launch_plan());
         update_.upload(queue);
     }
-    void enqueue_update(Queue& queue) override { enqueue(update_, queue, false); }
+    void enqueue_update(Queue& queue) override
+    {
+        enqueue(update_, queue, lines_up() ? leaf_order_.updated().triangles() : 0);
+    }
 
     bool in_one_launch() const { return meeting_ != Meeting::between_launches && !is_printed(); }
     bool is_printed() const { return meeting_ == Meeting::by_local_atomics; }
@@ -84,7 +87,7 @@ private:
     bool fits(const Cut& cut) const;
     void choose_and_plan(Meeting meeting);
     void prepare(const cl::CommandQueue& queue) override;
-    void enqueue(const Launches& launches, Queue& queue, bool lines_up);
+    void enqueue(const Launches& launches, Queue& queue, std::size_t lined_up);
     std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
     const Meeting asked_;
@@ -92,8 +95,8 @@ private:
     Cut cut_;
     cl::Kernel from_leaves_, from_nodes_;
     Launches whole_, update_;
-    Buffer<uint>
-        arrivals_;  ///< by_handoff and by_climbing: one per slot, up to those of the last tree's first subtree roots.
+    /// By_handoff and by_climbing: one per slot, up to those of the last tree's first subtree roots.
+    Buffer<uint> arrivals_;
     Buffer<cl_ulong> posts_;  ///< If groups wait: a box per group.
 };
 
@@ -187,13 +190,13 @@ void KernelBuilder::prepare(const cl::CommandQueue& queue)
     whole_.upload(queue);
 }
 
-/// With `lines_up` the first launch reads leaves in mesh order and writes them in leaf order, too.
-void KernelBuilder::enqueue(const Launches& launches, Queue& queue, bool lines_up)
+/// If leaves are to be lined up, as many as are given, the first launch reads them in mesh order and writes them in leaf order, too.
+void KernelBuilder::enqueue(const Launches& launches, Queue& queue, std::size_t lined_up)
 {
     for (uint k = 0; k < launches.list.size(); ++k) {
         const Launch& launch = launches.list[k];
         cl::Kernel& kernel =
-            k == 0 && (lines_up || !tree_.sorted_leaves) ? from_leaves_ : from_nodes_;
+            k == 0 && (lined_up > 0 || !tree_.sorted_leaves) ? from_leaves_ : from_nodes_;
         cl_uint next = set_arguments_from(kernel, 0, leaf_order_.boxes(), tree_.ids, tree_.nodes,
                                           tree_.device_objects, launches.subtrees, tree_.leaves);
         if (waits())
@@ -204,8 +207,8 @@ void KernelBuilder::enqueue(const Launches& launches, Queue& queue, bool lines_u
             next = set_arguments_from(kernel, next, launch.first_subtree, k);
         if (!by_groups())
             set_arguments_from(kernel, next, cut_.levels);
-        if (k == 0 && lines_up)  // ids are read and leaves written, too
-            queue.declare(tree_.leaves * static_cast<std::int64_t>(sizeof(uint) + sizeof(Aabb)));
+        if (k == 0)  // ids are read and leaves written, too
+            queue.declare(static_cast<std::int64_t>(lined_up * (sizeof(uint) + sizeof(Aabb))));
         queue.launch(kernel, (launch.subtrees + launches.later_list.size()) * cut_.group_size,
                      cut_.group_size, launch.moved_bytes);
     }

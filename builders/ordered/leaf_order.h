@@ -58,10 +58,8 @@ public:
     /// Returns the runs of triangles that the planned update processes.
     const ObjectRuns& updated() const { return updated_; }
 
-    const Buffer<Aabb>& boxes() const
-    {
-        return bounds_.boxes();
-    }  ///< One per triangle, in mesh order.
+    /// One per triangle, in mesh order.
+    const Buffer<Aabb>& boxes() const { return bounds_.boxes(); }
     /// Bounds of the boxes and of their centres, one element per object.
     const Buffer<Bounds>& bounds() const { return bounds_.bounds(); }
     /// Ascending codes of the ordered leaves; above 32 bits, two words each, low word first. Codes do not ascend after medians,

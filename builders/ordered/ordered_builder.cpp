@@ -161,7 +161,7 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
 {
     tree().queue = &queue;
     leaf_order_.enqueue_update(input, queue);
-    if (gather_)
+    if (gather_ && !lines_up())
         gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(), queue);
     queue.begin(update_ == TreeUpdate::refit ? "refit" : "hierarchy");
     enqueue_update(queue);

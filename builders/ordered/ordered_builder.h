@@ -59,7 +59,7 @@ protected:
     /// Plans updates of the trees of `objects`, which are rebuilt or refitted. Blocks.
     virtual void begin_update(const cl::CommandQueue&, std::span<const uint>) {}
 
-    /// Enqueues the planned hierarchies.
+    /// Enqueues the planned hierarchies; if the builder `lines_up`, over leaf boxes in mesh order.
     virtual void enqueue_update(Queue&) {}
 
     virtual DeviceTree& tree() = 0;
