@@ -32,6 +32,9 @@ constexpr std::size_t swept_groups_per_unit = 32;
 /// long, and those of the slowest kind, pairs a hair's breadth apart, 0.78 times (not kept).
 constexpr std::size_t filter_groups_per_unit = 6, exact_groups_per_unit = 2;
 
+/// After as many queries whose filter left nothing open, the launch that would decide it is left out.
+constexpr uint queries_to_skip_rest = 3;
+
 /// True if a float that is a denormal is not taken for 0, which would be another coordinate.
 bool keeps_denormals(const Device& device)
 {
@@ -57,6 +60,20 @@ bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, 
     if (keep_adjacent)
         shared = sharing(shared.a, shared.b);
     return corners_meet(corners_of(points, shared.a), corners_of(points, shared.b), shared.count);
+}
+
+void append_found(std::span<const Pair> more, std::uint64_t found, const DevicePairs& list,
+                  const Queue& queue)
+{
+    const std::uint64_t room = list.pairs.size();
+    const std::size_t written = std::min<std::uint64_t>(more.size(), room - std::min(found, room));
+    if (written > 0)
+        queue.cl().enqueueWriteBuffer(list.pairs.cl(), CL_TRUE, found * sizeof(Pair),
+                                      written * sizeof(Pair), more.data());
+    const std::uint64_t total = found + more.size();
+    const uint words[] = {static_cast<uint>(total), static_cast<uint>(total >> 32)};
+    queue.cl().enqueueWriteBuffer(list.counters.cl(), CL_TRUE, CONTACTS_COUNT * sizeof(uint),
+                                  sizeof words, words);
 }
 
 NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
@@ -195,6 +212,9 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
         decide_on_host(input, queue);
         return;
     }
+    launched_rest_ = decided_in_row_ < queries_to_skip_rest;
+    if (!launched_rest_)
+        return;
     if (is_exact_)
         set_arguments(rest_, input.device_points, input.device_faces, unsure_, unsure_room,
                       contacts_, contact_room, counters_);
@@ -230,7 +250,6 @@ void NarrowPhase::find_impacts(const Input& input, const Buffer<Pair>& candidate
 void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
 {
     const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
-    const std::uint64_t found = counts[CONTACTS_COUNT / 2];
     std::vector<Pair> unsure = first_entries(
         unsure_, std::min<std::uint64_t>(counts[NARROW_EXACT_COUNT / 2], unsure_.size()), queue,
         "the candidates left to the host");
@@ -239,15 +258,7 @@ void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
         return !triangles_meet(here.points, here.faces, pair, options_.keep_adjacent);
     });
 
-    const std::size_t room = contacts_.size() - std::min<std::uint64_t>(found, contacts_.size());
-    const std::size_t written = std::min(room, unsure.size());
-    if (written > 0)
-        queue.cl().enqueueWriteBuffer(contacts_.cl(), CL_TRUE, found * sizeof(Pair),
-                                      written * sizeof(Pair), unsure.data());
-    const std::uint64_t total = found + unsure.size();
-    const uint words[] = {static_cast<uint>(total), static_cast<uint>(total >> 32)};
-    queue.cl().enqueueWriteBuffer(counters_.cl(), CL_TRUE, CONTACTS_COUNT * sizeof(uint),
-                                  sizeof words, words);
+    append_found(unsure, counts[CONTACTS_COUNT / 2], device_contacts(), queue);
 }
 
 bool NarrowPhase::complete(const Queue& queue)
@@ -260,11 +271,13 @@ bool NarrowPhase::complete(const Queue& queue)
         had_room(contact_room_, contacts, contacts / 8, sizeof(Pair), device, "contacts");
     const bool unsure_fit =
         had_room(unsure_room_, unsure, unsure / 8, sizeof(Pair), device, "unsure candidates");
-    if (contacts_fit && unsure_fit)
-        counts_ = std::move(counts);
-    else
+    if (!contacts_fit || !unsure_fit)
         take_all();
-    return contacts_fit && unsure_fit;
+    const bool is_complete = contacts_fit && unsure_fit && (unsure == 0 || launched_rest_);
+    decided_in_row_ = unsure == 0 ? decided_in_row_ + 1 : 0;
+    if (is_complete)
+        counts_ = std::move(counts);
+    return is_complete;
 }
 
 NarrowCounts NarrowPhase::counts(const Queue& queue) const
@@ -286,30 +299,25 @@ std::vector<float> NarrowPhase::impact_times(const Queue& queue) const
     return first_entries(times_, counts(queue).contacts, queue, "the times of impact");
 }
 
-int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
-                  const Buffer<uint>& candidate_counters, Queue& queue)
+void find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
+                   const Buffer<uint>& candidate_counters, Queue& queue)
 {
-    for (int queries = 1;; ++queries) {
+    do
         narrow.query(input, candidates, candidate_counters, queue);
-        if (narrow.complete(queue))
-            return queries;
-    }
+    while (!narrow.complete(queue));
 }
 
 std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input)
 {
     std::vector<bool> faces(input.faces.size()), points(input.points.size());
-    const auto see = [&](uint triangle) {
-        if (faces[triangle])
-            return;
-        faces[triangle] = true;
-        const Face face = input.faces[triangle];
-        points[face.a] = points[face.b] = points[face.c] = true;
-    };
-    for (const Pair pair : pairs) {
-        see(pair.a);
-        see(pair.b);
-    }
+    for (const Pair pair : pairs)
+        for (const uint triangle : {pair.a, pair.b}) {
+            if (faces[triangle])
+                continue;
+            faces[triangle] = true;
+            const Face face = input.faces[triangle];
+            points[face.a] = points[face.b] = points[face.c] = true;
+        }
     const std::int64_t frames = input.is_swept() ? 2 : 1;
     const std::int64_t point = input.is_wide() ? sizeof(WidePoint) : sizeof(Point);
     return std::count(faces.begin(), faces.end(), true) * std::int64_t{sizeof(Face)} +

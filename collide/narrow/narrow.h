@@ -46,8 +46,8 @@ struct NarrowCounts {
     std::uint64_t contacts = 0;
     std::uint64_t by_floats = 0;  ///< in floats, or by indices alone
     std::uint64_t by_doubles = 0;
-    std::uint64_t exactly =
-        0;  ///< or not at all: what filters alone left open, and took for contacts
+    /// Or not at all: what filters alone left open, and took for contacts.
+    std::uint64_t exactly = 0;
 
     std::uint64_t candidates() const { return by_floats + by_doubles + exactly; }
 };
@@ -89,7 +89,8 @@ public:
     void query(const Input& input, const Buffer<Pair>& candidates,
                const Buffer<uint>& candidate_counters, Queue& queue);
 
-    /// True if every buffer of the last query was large enough; otherwise enlarges the buffers. Blocks.
+    /// True if every buffer of the last query was large enough, and nothing was left open that had been expected to be decided by
+    /// the filter, as in the queries before; otherwise enlarges the buffers. Blocks.
     bool complete(const Queue& queue);
 
     /// Counts and contacts of the last query, which must have been complete. Both functions block.
@@ -125,7 +126,9 @@ private:
     std::size_t contact_room_ = 0, unsure_room_ = 0;
     std::optional<Arena> arena_;
     cl::Kernel filter_;
-    cl::Kernel rest_;  ///< of a filter: decides what it left open
+    cl::Kernel rest_;            ///< of a filter: decides what it left open
+    bool launched_rest_ = true;  ///< in the last query
+    uint decided_in_row_ = 0;    ///< queries whose filter left nothing open, since one that did
     Buffer<Pair> contacts_;
     Buffer<float> times_;  ///< of contacts, for methods for swept boxes
     Buffer<Pair> unsure_;  ///< candidates that a filter left open
@@ -144,9 +147,13 @@ Corners corners_of(std::span<const Point> points, Face face);
 bool triangles_meet(std::span<const Point> points, std::span<const Face> faces, Pair pair,
                     bool keep_adjacent);
 
-/// Repeats the query until it is complete; returns the number of queries. Blocks.
-int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
-                  const Buffer<uint>& candidate_counters, Queue& queue);
+/// Appends pairs that the host found to a list with `found` pairs, as many as it has room for, and counts all at CONTACTS_COUNT. Blocks.
+void append_found(std::span<const Pair> more, std::uint64_t found, const DevicePairs& list,
+                  const Queue& queue);
+
+/// Repeats the query until it is complete. Blocks.
+void find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
+                   const Buffer<uint>& candidate_counters, Queue& queue);
 
 /// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once, points of a swept input in both
 /// frames: the least that a narrow phase must read (docs/counters.md, Bytes moved).

@@ -199,13 +199,7 @@ void WithinPhase::decide_on_host(const Input& input, const DevicePairs& candidat
     for (std::size_t k = 0; k < left.size(); ++k)
         if (is_within[k] != 0)
             more.push_back(left[k]);
-    const std::uint64_t total = decided.within + more.size();
-    if (!more.empty() && total <= pairs_.size())
-        queue.cl().enqueueWriteBuffer(pairs_.cl(), CL_TRUE, decided.within * sizeof(Pair),
-                                      more.size() * sizeof(Pair), more.data());
-    const uint words[] = {static_cast<uint>(total), static_cast<uint>(total >> 32)};
-    queue.cl().enqueueWriteBuffer(counters_.cl(), CL_TRUE, CONTACTS_COUNT * sizeof(uint),
-                                  sizeof words, words);
+    append_found(more, decided.within, {pairs_, counters_}, queue);
 }
 
 bool WithinPhase::complete(const Queue& queue)

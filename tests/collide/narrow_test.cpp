@@ -100,15 +100,18 @@ TEST_P(Narrow, LooksAtNoMoreThanWasCountedAndNoMoreThanThereIsRoomFor)
     bench().queue.finish();
 }
 
-TEST_P(Narrow, FindsTheSameEveryTime)
+TEST_P(Narrow, FindsTheSameEveryTimeAlsoWhenTheFilterLeavesPairsOpenAfterQueriesWithout)
 {
     NarrowPhase narrow(bench().programs, options(false));
-    const Mesh mesh = apart_pairs(pair_classes()[4], 5'000, 1);
-    narrow.reserve(mesh.faces.size());
-    const Candidates candidates(mesh, neighbours(mesh));
-    const PairList first = contacts_found(narrow, candidates);
-    for (int repeat = 0; repeat < 5; ++repeat)
-        EXPECT_EQ(contacts_found(narrow, candidates), first);
+    narrow.reserve(10'000);
+    std::map<std::string_view, PairList> first;
+    for (const char* name : {"hairs_breadth", "generic", "hairs_breadth"}) {
+        const Mesh mesh = apart_pairs(find_pair_class(name), 5'000, 1);
+        const Candidates candidates(mesh, neighbours(mesh));
+        first.try_emplace(name, contacts_found(narrow, candidates));
+        for (int repeat = 0; repeat < 4; ++repeat)
+            EXPECT_EQ(contacts_found(narrow, candidates), first[name]);
+    }
 }
 
 TEST_P(Narrow, MissesNoneWithFiltersAloneAndIsFalseOnlyWhereTheyAreInDoubt)
@@ -203,12 +206,8 @@ TEST(RoundedNarrow, RefusesCornersThatAreShared)
 
 TEST(NarrowStages, EachDecideWhatTheyAreFor)
 {
-    // Stages that decide at least one pair of a class.
-    struct Expected {
-        bool floats, doubles, exactly;
-        bool operator==(const Expected&) const = default;
-    };
-    const std::map<std::string, Expected> expected = {
+    using Expected = std::array<bool, 3>;  // whether floats, doubles and exact tests decide some
+    const std::map<std::string_view, Expected> expected = {
         {"generic", {true, true, false}},           {"near_touching", {false, true, false}},
         {"coplanar_lattice", {false, false, true}}, {"hairs_breadth", {false, false, true}},
         {"lattice_8", {true, true, true}},          {"same_place", {false, false, true}},
@@ -222,8 +221,7 @@ TEST(NarrowStages, EachDecideWhatTheyAreFor)
             SCOPED_TRACE(of.name);
             const Mesh mesh = apart_pairs(of, pairs_a_class, pairs_a_class);
             narrow.reserve(mesh.faces.size());
-            const std::size_t found =
-                contacts_found(narrow, Candidates(mesh, neighbours(mesh))).size();
+            const auto found = contacts_found(narrow, Candidates(mesh, neighbours(mesh))).size();
             EXPECT_TRUE(found > 0 || of.meeting == Meeting::none);
             EXPECT_TRUE(found < pairs_a_class || of.meeting == Meeting::all || of.name == "twice");
             const NarrowCounts counts = narrow.counts(bench().queue);
