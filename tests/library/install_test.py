@@ -55,9 +55,8 @@ def check_files(prefix: pathlib.Path) -> None:
 # Parameters that declare the names which the documents' examples use but do not define.
 GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem faces, std::size_t face_count, "
          "std::uint32_t cloth_faces, std::uint32_t ball_faces, std::span<const bvhbench::oibvh::Point> link_points, "
-         "std::span<const bvhbench::oibvh::Face> link_faces, const bvhbench::oibvh::Input& input, "
-         "const bvhbench::oibvh::Input& moved, const bvhbench::oibvh::Input& scene, "
-         "const bvhbench::oibvh::Input& frame, bvhbench::oibvh::Tree& world")
+         "std::span<const bvhbench::oibvh::Face> link_faces, const bvhbench::oibvh::Input& input, const bvhbench::oibvh::Input& moved, "
+         "const bvhbench::oibvh::Input& scene, const bvhbench::oibvh::Input& frame, bvhbench::oibvh::Tree& world")
 
 
 def examples(document: str) -> list[str]:
