@@ -13,8 +13,8 @@ namespace bvhbench {
 
 /// How the launches of Algorithm 1 are divided among work-items.
 struct Cut {
-    KernelForm form =
-        KernelForm::groups;  ///< groups: one group per subtree; chunks: one work-item per subtree.
+    /// groups: one group per subtree; chunks: one work-item per subtree.
+    KernelForm form = KernelForm::groups;
     uint group_size = 1;
     uint items = 1;   ///< groups: entry-level nodes that a work-item merges in registers.
     uint levels = 1;  ///< Most levels that one launch builds.

@@ -26,8 +26,8 @@ struct LaunchPlan {
     std::function<SubtreeSchedule(uint leaves)> schedule;
     std::function<std::int64_t(uint leaves, const SubtreeLaunch&)> moved_bytes;
     bool in_one_launch = false;  ///< The first launch builds up to the roots.
-    bool waits =
-        false;  ///< Some of its groups wait for the roots that further launches would start from.
+    /// Some of its groups wait for the roots that further launches would start from.
+    bool waits = false;
 };
 
 /// The launches that build the trees of all or some objects.

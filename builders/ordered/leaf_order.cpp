@@ -103,7 +103,7 @@ void LeafOrder::enqueue_at_once(const Input& input, Queue& queue)
 
 void LeafOrder::enqueue_stages(const Input& input, Queue& queue)
 {
-    enqueue_boxes(input, queue);
+    bounds_.enqueue(input, queue);
     if (!codes_)
         return;
     const bool counts = sort_->takes_counts();
@@ -116,8 +116,6 @@ void LeafOrder::enqueue_stages(const Input& input, Queue& queue)
                         queue);
     sort_->enqueue(queue, counts);
 }
-
-void LeafOrder::enqueue_boxes(const Input& input, Queue& queue) { bounds_.enqueue(input, queue); }
 
 void LeafOrder::plan_updates(Arena& arena)
 {

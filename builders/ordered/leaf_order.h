@@ -42,8 +42,12 @@ public:
     /// Enqueues all stages. Allocates nothing and does not block.
     void enqueue(const Input& input, Queue& queue);
 
-    /// Enqueues the first stage only: new boxes, unchanged order. Does not block.
-    void enqueue_boxes(const Input& input, Queue& queue);
+    /// Enqueues the first stage only: new boxes, unchanged order; several objects keep their bounds unless these are `wanted`, too. Does
+    /// not block.
+    void enqueue_boxes(const Input& input, Queue& queue, bool wanted)
+    {
+        bounds_.enqueue(input, queue, "bounds", wanted);
+    }
 
     /// Takes the additional memory for updates of some of several objects.
     void plan_updates(Arena& arena);

@@ -113,8 +113,8 @@ private:
 
     SortShape shape_;
     uint code_bits_;
-    uint
-        digit_bits_;  ///< Of every pass of groups, the last one may have fewer; of the highest digit of chunks.
+    /// Of every pass of groups, the last one may have fewer; of the highest digit of chunks.
+    uint digit_bits_;
     uint passes_;
     std::size_t chunks_;
     cl::Kernel count_, scan_, scatter_;   ///< If groups do not wait.

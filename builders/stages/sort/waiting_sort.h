@@ -95,8 +95,8 @@ private:
     uint epoch_ = 1;    ///< Epoch of the next pass.
     uint turn_ = 0;     ///< Index of the counters of the next sort.
     std::array<Buffer<uint>, 2> counters_;  ///< With a launch for each pass: see sweep_tile.clh.
-    Buffer<ulong>
-        states_;  ///< A row of digits per tile; in one launch twice those of tile_sums.clh, then those of order_at_once.cl.
+    /// A row of digits per tile; in one launch twice those of tile_sums.clh, then those of order_at_once.cl.
+    Buffer<ulong> states_;
     Buffer<ulong> posts_;  ///< In one launch: pairs on their way between passes (at_once.clh).
 };
 
