@@ -156,8 +156,8 @@ TEST_P(EachFormat, IsTheSameOnTheDevice)
             const std::vector<uint> ids = shuffled_ids(boxes.size());
             const Buffer<std::byte> sorted =
                 on_device(std::vector<std::byte>(boxes.size() * GetParam().box_bytes()));
-            const Buffer<Bounds> device_bounds =
-                on_device(std::vector{bounds, empty_bounds()});  // as for two objects
+            // As for two objects.
+            const Buffer<Bounds> device_bounds = on_device(std::vector{bounds, empty_bounds()});
             reserve([&](Arena& arena) { gather.plan(arena, {sorted}, device_bounds); });
             gather.enqueue(on_device(boxes), on_device(ids), {}, bench().queue);
             bench().queue.finish();

@@ -50,8 +50,8 @@ std::vector<NamedCodes> hard_codes(std::size_t size, unsigned bits)
         low[k] = any[k] >> bits / 3;  // one highest digit, and many next ones
         few_high[k] = largest - (random() % 3 << (bits - 7));
         patches[k] = (k / 37 * 0x9e3779b97f4a7c15u) & largest;
-        runs[k] =
-            any[random() % (size / 8 + 1)] ^ random() % 4;  // some 8 codes, alike but for two bits
+        // Runs of some 8 codes, alike but for two bits.
+        runs[k] = any[random() % (size / 8 + 1)] ^ random() % 4;
     }
     std::vector<ulong> ascending = any;
     std::sort(ascending.begin(), ascending.end());

@@ -231,8 +231,8 @@ struct Class {
     std::function<float(std::mt19937&)> first;
     std::function<float(std::mt19937&, float)> last;
     bool is_flat = false;  ///< z is 0
-    bool ends_in_touch =
-        false;  ///< the vertex moves onto the face, or the second edge's middle onto the first's
+    /// The vertex moves onto the face, or the second edge's middle onto the first's.
+    bool ends_in_touch = false;
 };
 
 float uniform(std::mt19937& random) { return std::uniform_real_distribution<float>(-1, 1)(random); }

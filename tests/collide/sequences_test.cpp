@@ -298,8 +298,8 @@ TEST_F(MarginContacts, StandIfListsAreTooShort)
 {
     for (int variant = 0; variant < 4; ++variant) {
         SCOPED_TRACE(variant);
-        const float slope =
-            variant < 2 ? 0 : 1;  // of planes: only then do boxes overlap in each frame
+        // Of planes: only if it is 1 do boxes overlap in each frame.
+        const float slope = variant < 2 ? 0 : 1;
         ManyObjects many = sheets(4, 16, slope);
         ToContacts pipeline(many, variant % 2 == 0 ? KernelForm::groups : KernelForm::chunks);
         double standing = 0;

@@ -30,7 +30,7 @@ class Remake(unittest.TestCase):
     def maker(self) -> tuple[dict, object]:
         """Returns the names of the script, and its maker of quick files into the test's folder."""
         script = runpy.run_path(str(SCRIPT))
-        maker = script["Maker"](argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True))
+        maker = script["Maker"](argparse.Namespace(program=PROGRAM, device="cpu", out=str(self.folder), quick=True, machine="h200"))
         maker.ask()
         return script, maker
 
@@ -89,6 +89,12 @@ class Remake(unittest.TestCase):
         script, maker = self.maker()
         self.assertTrue(maker.make(script["Unit"]("scaled", 1, "scale strong --scene torus:64 --ranks 1 --samples 1", piece="scaled")))
         self.assertTrue(maker.is_there("scaled"))
+
+    def test_tells_scenes_without_data(self) -> None:
+        cells = [{"scene": {"name": "torus:9", "stand_in_for": name}} for name in ("bunny", "n-body")]
+        cells.append({"scene": {"name": "hand"}, "reason": "data set 'hand' is not there: not in '/tmp'"})
+        without_data = runpy.run_path(str(SCRIPT))["without_data"]
+        self.assertEqual([without_data({"cells": cells}, before) for before in ({"cells": cells[:1]}, {})], [["hand", "n-body"], ["hand"]])
 
     def test_merges_what_several_commands_made(self) -> None:
         script, maker = self.maker()

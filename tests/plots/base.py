@@ -32,8 +32,7 @@ def stage(name: str, span_ns: int, moved_bytes: int = 0, **more: int) -> Raw:
 
 def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
     """Returns a cell: the hierarchy of a tree over 144,046 triangles, in three samples."""
-    return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder},
-            "status": "measured",
+    return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder}, "status": "measured",
             "samples": [{"order": 7 + place, "stages": [stage("hierarchy", ns + off, 50000000)]}
                         for place, off in enumerate((10000, 0, -10000))],
             "counters": {"nodes_count": 288100, "tree_bytes": 6914400, "scratch_bytes": 0},

@@ -1,6 +1,7 @@
 from plots.evidence.quotes import ONE_SET, Document, File, ratios, us
 from plots.read.cells import Cell
 
+FEWER = ("gather", "refit", "hierarchy", "bounds", "narrow")  # stages with fewer launches
 LARGE, SMALL = "torus:2880000", "torus:144046"
 TITLES = "bytes per triangle | launches | large: floor | reached | ratio | small: reached | ratio"
 
@@ -62,7 +63,15 @@ def frames_of_two_cores(doc: Document) -> None:
     doc.says("a whole frame\n{}, {} and {}, with", *gains())
 
 
+def launches(doc: Document) -> None:
+    files = [File(f"turns/gpu-frames-{name}").cells for name in ("before", "after")]
+    doc.table("launches", "< scene | frame | before | now | those stages: before | now", (
+        [now.scene, now.frame + 1, us(before), us(now), us(before, *FEWER), us(now, *FEWER)]
+        for before, now in zip(*files, strict=True)))
+
+
 def quotes(doc: Document) -> None:
     gpu(doc)
+    launches(doc)
     frames_of_two_cores(doc)
     two_cores(doc)
