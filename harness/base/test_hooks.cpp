@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "device/energy.h"
 #include "geometry/error.h"
 #include "harness/base/common_options.h"
 
@@ -18,6 +19,7 @@ namespace {
 constexpr const char* variable = "BVHBENCH_SLOW";
 constexpr const char* stop_variable = "BVHBENCH_STOP";
 constexpr const char* copy_variable = "BVHBENCH_COPY_BYTES";
+constexpr const char* powercap_variable = "BVHBENCH_POWERCAP";
 
 double factor_of(std::string_view name)
 {
@@ -56,7 +58,7 @@ std::map<std::string, std::string> test_hooks()
     stops_at({}, 0);
     most_copied();
     std::map<std::string, std::string> set;
-    for (const char* name : {variable, stop_variable})
+    for (const char* name : {variable, stop_variable, powercap_variable})
         if (const std::string value = environment(name); !value.empty())
             set[name] = value;
     return set;
@@ -80,6 +82,12 @@ std::size_t most_copied()
         throw BadUsage(std::string(copy_variable) + " must be a number of bytes from 16 on, not '" +
                        most + "'");
     return bytes;
+}
+
+std::string powercap()
+{
+    const std::string folder = environment(powercap_variable);
+    return folder.empty() ? powercap_of_linux : folder;
 }
 
 void stop_at(std::string_view stage, unsigned rank)

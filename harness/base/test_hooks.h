@@ -27,6 +27,9 @@ void slow_down(std::span<StageTime> stages, std::string_view name);
 /// file has the size taken (`copy_rate_buffer_bytes`). Throws BadUsage if it is no number from 16 on.
 std::size_t most_copied();
 
+/// Returns BVHBENCH_POWERCAP, a folder in the place of that with a processor's counters of joules.
+std::string powercap();
+
 /// Stops this process by SIGSTOP if BVHBENCH_STOP, as "exchange:1", names this stage and rank of `cluster`. Throws BadUsage
 /// if the variable cannot be parsed.
 void stop_at(std::string_view stage, unsigned rank);

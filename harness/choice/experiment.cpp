@@ -46,6 +46,7 @@ SamplingRules sampling_of(const Json& json)
         if (rules.caches.empty())
             throw BadUsage("'caches' is an empty list");
     }
+    read_number(json, "energy_s", 0, 60, rules.energy_s);
     if (json.contains("race"))
         rules.race = race_called(text_at(json, "race"));
     check_rules(rules);
@@ -81,10 +82,10 @@ std::vector<Operation> operations_of(const Json& json)
 Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(
-        json, {"experiment",  "question",      "paper",   "scenes",  "builders", "operations",
-               "pipelines",   "stages",        "samples", "warm_up", "until",    "min_samples",
-               "max_samples", "time_budget_s", "race",    "caches",  "quality",  "doubles",
-               "skips",       "quick",         "label",   "clusters"},
+        json, {"experiment",  "question",      "paper",   "scenes",   "builders", "operations",
+               "pipelines",   "stages",        "samples", "warm_up",  "until",    "min_samples",
+               "max_samples", "time_budget_s", "race",    "caches",   "quality",  "doubles",
+               "skips",       "quick",         "label",   "clusters", "energy_s"},
         "an experiment");
     const bool collides = json.contains("pipelines"), has_ranks = json.contains("clusters");
     if (has_ranks)
@@ -107,6 +108,7 @@ Experiment experiment_of(const Json& json, bool quick)
     if (json.contains("doubles"))
         experiment.doubles = doubles_called(text_at(json, "doubles"));
     experiment.sampling = sampling_of(json);
+    experiment.sampling.energy_s *= quick ? 0 : 1;
     experiment.quality = is_true(json, "quality");
     if (collides)
         experiment.collisions = collisions_of(json, experiment.name, quick);

@@ -32,6 +32,7 @@ void SamplingWords::apply(SamplingRules& rules) const
 {
     rules.until = until.value_or(rules.until);
     rules.time_budget_s = time_budget_s.value_or(rules.time_budget_s);
+    rules.energy_s = energy_s.value_or(rules.energy_s);
     rules.drift_limit = drift_limit.value_or(rules.drift_limit);
     rules.min_samples = min_samples.value_or(rules.min_samples);
     rules.max_samples = max_samples.value_or(rules.max_samples);

@@ -48,7 +48,8 @@ struct SamplingRules {
     Race race = Race::none;     ///< whether a cell that is beaten by another stops
     /// Each has cells of its own, sampled one after another by one process.
     std::vector<Caches> caches = {Caches::hot};
-    int calibrate_every = 16;   ///< samples between two calibration runs; 0: no calibration
+    int calibrate_every = 16;  ///< samples between two calibration runs; 0: no calibration
+    double energy_s = 0;       ///< seconds that each cell then runs alone, to count joules; 0: none
     double drift_limit = 0.25;  ///< allowed relative deviation of a calibration from the median
 
     bool operator==(const SamplingRules&) const = default;
@@ -85,7 +86,7 @@ constexpr std::string_view stopped_name(Stopped stopped)
 
 /// Sampling options given on the command line. Options that are not set leave the rules unchanged.
 struct SamplingWords {
-    std::optional<double> until, time_budget_s, drift_limit;
+    std::optional<double> until, time_budget_s, energy_s, drift_limit;
     std::optional<int> min_samples, max_samples, calibrate_every;
     std::string race;
     std::vector<std::string> caches;

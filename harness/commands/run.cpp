@@ -152,7 +152,8 @@ private:
                       quick_,         quality_,
                       costs_.inner,   costs_.triangle,
                       common.doubles, session.device().tuning.values()};
-        for (const auto& one : {sampling_.until, sampling_.time_budget_s, sampling_.drift_limit})
+        for (const auto& one :
+             {sampling_.until, sampling_.time_budget_s, sampling_.energy_s, sampling_.drift_limit})
             words.push_back(one.value_or(0));
         for (const auto& one :
              {sampling_.min_samples, sampling_.max_samples, sampling_.calibrate_every})

@@ -126,6 +126,10 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
                    "memory, or in the host's, with both copies timed; several, as hot,cold, are "
                    "cells of their own; hot")
         ->delimiter(',');
+    app.add_option("--energy", sampling.energy_s,
+                   "seconds that each cell runs alone after its samples, to count the joules of a "
+                   "run; 0: none")
+        ->check(a_number(60));
     app.add_option("--calibrate-every", sampling.calibrate_every,
                    "samples between two looks at how fast the device is; 0: none; 16")
         ->check(CLI::Range(0, most_samples));

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "device/energy.h"
 #include "harness/base/failure.h"
+#include "harness/base/test_hooks.h"
 #include "harness/session/race.h"
 #include "harness/session/sampler.h"
 #include "process/watchdog.h"
@@ -163,6 +165,45 @@ std::vector<StageTime> Engine::from_host(Measurement& measurement)
     return stages;
 }
 
+/// Runs a cell alone in a plain loop, from one step of the device's counter of joules to another; notes joules and watts, or why not.
+void Engine::count_joules(Measurement& measurement, Cell& cell)
+{
+    constexpr double between_looks_s = 0.005;  // looking takes time as well
+    const watchdog::CellScope scope(measurement.number);
+    const auto on_host = [](const StageTime& stage) { return stage.launches == 0; };
+    std::string why = reason_of_failure([&] {
+        if (!session_.device().is_cpu() && std::ranges::any_of(cell.samples.back().stages, on_host))
+            throw Unavailable("a stage is on the host, and the device tells of itself");
+        const std::function<double()> joules = energy_counter(session_.device(), powercap());
+        session_.set_caches(Caches::host);  // no work before a run
+        int runs = 0;
+        const auto run_for = [&](double seconds) {
+            for (const auto start = std::chrono::steady_clock::now();
+                 seconds_since(start) < seconds; ++runs)
+                measurement.once();
+        };
+        const auto run_to_a_step = [&] {
+            const double before = joules();
+            const auto start = std::chrono::steady_clock::now();
+            while (joules() == before)
+                if (run_for(between_looks_s); seconds_since(start) > 2)
+                    throw Unavailable("the device's counter of joules stands still");
+        };
+        run_to_a_step();
+        runs = 0;
+        const double before = joules();
+        const auto start = std::chrono::steady_clock::now();
+        run_for(plan_.rules.energy_s);
+        run_to_a_step();
+        const double taken = joules() - before;
+        cell.counters["energy_watts"] = taken / seconds_since(start);
+        cell.counters["energy_joules"] = taken / runs;
+    });
+    session_.set_caches(Caches::hot);
+    if (!why.empty())
+        cell.left_out["energy_joules"] = std::move(why);
+}
+
 /// Notes that `rounds` have been sampled in `sampling_s`, after `before_s` of preparation. All rounds take as long as the average.
 void Engine::tell(int rounds, double before_s, double sampling_s) const
 {
@@ -198,6 +239,8 @@ std::vector<Cell> Engine::sample(std::span<Measurement> measurements)
                 continue;
             cell.samples = std::move(sampled[kind][i].samples);
             cell.sampling = sampled[kind][i].sampling;
+            cell.counters.merge(sampled[kind][i].counters);
+            cell.left_out.merge(sampled[kind][i].left_out);
             if (kinds[kind] == Caches::host && !one.no_copies.empty()) {
                 cell.status = Cell::Status::skipped;
                 cell.reason = one.no_copies;
@@ -242,6 +285,9 @@ void Engine::sample(std::span<Measurement> measurements, Caches caches, std::spa
         cell.sampling.dropped = taken[k].dropped;
         if (!taken[k].failure.empty())
             refuse(one.cell, Cell::Status::failed, std::move(taken[k].failure));
+        else if (plan_.rules.energy_s > 0 && caches == Caches::hot &&
+                 taken[k].stopped != Stopped::beaten)
+            count_joules(one, cell);
     }
 }
 

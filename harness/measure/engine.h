@@ -70,6 +70,7 @@ public:
 private:
     void sample(std::span<Measurement> measurements, Caches caches, std::span<Cell> cells);
     std::vector<StageTime> from_host(Measurement& measurement);
+    void count_joules(Measurement& measurement, Cell& cell);
     SamplingFacts facts_of(Stopped stopped, Caches caches) const;
     std::vector<StageTime> run_once(Measurement& measurement);
     double slower_now();

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """Tests how samples are taken, according to the program's output and its result files."""
+import os
 import pathlib
 import statistics
 import subprocess
 import sys
+import threading
+import time
 
 from program import PATIENCE_S, PROGRAM, cells_after, copied_kernels, expect, experiment, main, only, valid
 
@@ -35,6 +38,27 @@ def test_a_target_stops_and_says_why() -> None:
     for cell in cells_after("run", "until.json"):
         assert cell["sampling"]["caches"] == "cold" and cell["sampling"]["until"] == 0.9, cell
     assert all(len(cell["samples"]) == 2 for cell in cells_after("run", "until.json", "--samples", "2"))
+
+
+def test_joules_are_counted_where_a_counter_moves() -> None:
+    package, begun, is_over = pathlib.Path("power/intel-rapl:0"), time.monotonic(), threading.Event()
+    package.mkdir(parents=True)
+    (package / "max_energy_range_uj").write_text("24000000")
+
+    def count() -> None:  # 40 W; it begins at 0 again every 0.6 s
+        while not is_over.wait(0.01):
+            (package / "next").write_text(str(int(40e6 * (time.monotonic() - begun)) % 24000000))
+            os.replace(package / "next", package / "energy_uj")
+
+    counting = threading.Thread(target=count)
+    counting.start()
+    counters = cells_after(*BUILD, "--energy", "0.5", BVHBENCH_POWERCAP="power")[0]["counters"]
+    is_over.set()
+    counting.join()
+    assert 36 < counters["energy_watts"] < 44 and 40e-5 < counters["energy_joules"] < 4, counters
+    for folder, why in (("power", "stands still"), ("nowhere", "does not tell its energy: no intel-rapl in nowhere")):
+        cell, = cells_after(*BUILD, "--energy", "0.1", BVHBENCH_POWERCAP=folder)
+        assert why in cell["left_out"]["energy_joules"] and "energy_joules" not in cell["counters"], cell
 
 
 def test_what_makes_no_sense_is_refused() -> None:

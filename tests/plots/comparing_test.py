@@ -300,8 +300,8 @@ class Facts(unittest.TestCase):
             self.assertEqual(verdicts(bad, bad), [UNSURE if "samples" in bad["cells"][0] else SAME])
 
     def test_counters_that_are_times_or_unsteady_are_left_out(self) -> None:
-        names = ["compile_ns", "copy_rate_bytes_per_s", "tree_bytes", "pairs_count"]
-        self.assertEqual([counters.is_time(name) for name in names], [True, True, False, False])
+        names = ["compile_ns", "copy_rate_bytes_per_s", "energy_joules", "tree_bytes", "pairs_count"]
+        self.assertEqual([counters.is_time(name) for name in names], [True, True, True, False, False])
         of_group, of_leaf = (Cell({**cell(), "collider": {"name": name}}) for name in ("group", "leaf"))
         self.assertFalse(counters.is_exact("box_tests_count", of_group))
         self.assertTrue(counters.is_exact("pairs_count", of_group) and counters.is_exact("box_tests_count", of_leaf))
