@@ -8,7 +8,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 
-from ..console import frame_table, paper, run as run_page, tree_costs
+from ..console import claims, frame_table, paper, run as run_page, tree_costs
 from ..files import output
 from ..files.json_files import Refused
 from ..files.reserved import reserved
@@ -37,9 +37,9 @@ SHOWN: dict[str, tuple[str, Callable[[results.Run], str]]] = {
 def parser() -> command.Parser:
     words = command.Parser(
         "reproduce", "Measure, print and draw what the paper shows",
-        "Writes result file and figure into --out, and prints our numbers beside the paper's. `all` goes through all of them "
-        "and makes report.html, one page of everything. Meshes that are not there are replaced by generated ones of as many "
-        "triangles; table, figure and file say so.",
+        "Writes result file and figure into --out, and prints our numbers beside the paper's. `all` goes through all of them, "
+        "prints which claims they confirm, and makes report.html, one page of everything. Meshes that are not there are replaced by "
+        "generated ones of as many triangles; table, figure and file say so.",
         [("bvhbench reproduce table1", "construction times, out/table1.json and pictures"),
          ("bvhbench reproduce all --quick", "every table and figure, small, and out/report.html"),
          ("bvhbench reproduce fig8 --device nvidia --data meshes", "on a GPU, with real meshes")], "docs/paper.md")
@@ -71,6 +71,8 @@ def main(words: list[str]) -> int:
             with reserved(file, "--out", arguments.force):
                 pass
         codes = [reproduced(arguments, files[name], shown) for name, shown in runs.items()]
+    if is_all:
+        print(claims.text({name: results.everything(file) for name, file in files.items()}), end="", flush=True)
     worst = max((code for code in codes if code != NOTHING), default=NOTHING)  # among the runs that measured something
     if worst == NOTHING or not is_all:
         return worst

@@ -22,11 +22,12 @@ import types
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
+from ..console.claims import asked_of
 from ..files import output
 from ..read import rank_files
 from ..read.cells import Cell
 from ..read.ranking import OF_QUERY
-from ..words import names, tables
+from ..words import tables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NUMBER = r"-?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?(?:e-?\d+)?"
@@ -60,14 +61,6 @@ class File:
     def results(self) -> list[dict[str, Any]]:
         """Returns the cells of several ranks, in the order of the file."""
         return rank_files.cells_of(self.document, self.name)
-
-
-def asked_of(cell: Cell) -> str:
-    """Returns the name of what was asked for, equal on every device: "bvtt (jump 2) over oibvh-multi", "oibvh-multi, kd"."""
-    if cell.operation != "collide":
-        return cell.asked
-    caches = f", {names.CACHES[cell.caches]}" if cell.caches in names.CACHES else ""
-    return names.pipeline(cell.collider or "", dict(cell.collider_options), cell.builder, dict(cell.options)) + caches
 
 
 def us(cell: Cell, *stages: str) -> float:

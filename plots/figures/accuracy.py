@@ -261,15 +261,13 @@ def draw_queries(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
-# The figures of each axis, by the name of the picture.
-FIGURES = {"narrow": {"narrow": accuracy_narrow.draw, "classes": accuracy_narrow.draw_classes}, "sums": {"sums": draw_sums},
-           "codes": {"codes": draw_codes}, "input": {"input": draw_input}, "place": {"place": draw_place}, "boxes": {"boxes": draw_boxes},
-           "swept": {"swept": functools.partial(swept_bars.draw_cells, experiment="accuracy")}, "frames": {"frames": accuracy_frames.draw},
-           "impacts": {"impacts": draw_impacts}, "distance": {"distance": draw_distance}, "queries": {"queries": draw_queries}}
+# The figure of each axis.
+FIGURES = {"narrow": accuracy_narrow.draw, "sums": draw_sums, "codes": draw_codes, "input": draw_input, "place": draw_place,
+           "boxes": draw_boxes, "swept": functools.partial(swept_bars.draw_cells, experiment="accuracy"), "frames": accuracy_frames.draw,
+           "impacts": draw_impacts, "distance": draw_distance, "queries": draw_queries}
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:
-    """Returns the figures of each axis that the file has measured cells of."""
+    """Returns the figure of each axis that the file has measured cells of."""
     by_axis = results.grouped((cell for cell in run.cells if cell.samples), lambda cell: cell.accuracy.get("axis"))
-    return {name: functools.partial(draw, cells=by_axis[axis]) for axis, draws in FIGURES.items() if axis in by_axis
-            for name, draw in draws.items()}
+    return {axis: functools.partial(draw, cells=by_axis[axis]) for axis, draw in FIGURES.items() if axis in by_axis}

@@ -1,19 +1,16 @@
-"""Draws how often each narrow phase is wrong and what a pair takes: in its worst and typical class of pairs, and in all classes."""
+"""Draws how often each narrow phase is wrong and what a pair takes: in its worst and typical class of pairs."""
 from collections.abc import Callable
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
-from ..draw import cell_map, figure, style
+from ..draw import figure, style
 from ..read import results
 from ..words import tables
 from .accuracy_points import METHODS, by_input, from_zero, look, median_s
 
 ROW = 0.52  # inches for a method
 INK = "#444444"
-NONE, FEW, MANY = "#DDEFF7", "#F7DFA8", "#E69F00"  # of cells of the map
-MANY_FROM = 0.01  # share of wrong pairs
 Value = Callable[[results.Cell], float]
 
 
@@ -95,26 +92,4 @@ def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     handles = [Line2D([], [], color=INK, linestyle="none", label=label, **mark) for label, mark in marks.items()]
     height = figure.legend_above(drawing, handles)
     figure.footer(drawing, run, "accuracy", (remark(cells), "Left is better. Times: medians."), height)
-    return drawing
-
-
-def draw_classes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
-    """Draws a map: a row a class, and for each method its share of wrong pairs and its time of a pair."""
-    methods = by_method(cells)
-    rows = list(dict.fromkeys(map(class_name, cells)))
-    entries: cell_map.Entries = {}
-    for method, those in methods.items():
-        for cell in those:
-            share = wrong(cell)
-            colour = NONE if share == 0 else FEW if share < MANY_FROM else MANY
-            entries[class_name(cell), f"{method}, wrong"] = (colour, percent(share))
-            entries[class_name(cell), f"{method}, ns"] = ("#EEEEEE", tables.three_digits(ns_a_pair(cell)))
-    columns = [f"{method}, {what}" for what in ("wrong", "ns") for method in methods]
-    drawing, [[axes]] = figure.grid(1, 1, 2.0 + cell_map.inches(entries, rows))
-    cell_map.draw(axes, entries, rows, columns)
-    axes.axvline(len(methods), color="black", linewidth=0.8)
-    handles = [Patch(color=colour, label=label) for colour, label in (
-        (NONE, "none wrong"), (FEW, f"less than {100 * MANY_FROM:g} % wrong"), (MANY, "more wrong"))]
-    height = figure.legend_above(drawing, handles)
-    figure.footer(drawing, run, "accuracy", (remark(cells), "ns: median time of a pair."), height)
     return drawing

@@ -50,12 +50,10 @@ def test_joules_are_counted_where_a_counter_moves() -> None:
             (package / "next").write_text(str(int(40e6 * (time.monotonic() - begun)) % 24000000))
             os.replace(package / "next", package / "energy_uj")
 
-    counting = threading.Thread(target=count)
-    counting.start()
+    threading.Thread(target=count).start()
     counters = cells_after(*BUILD, "--energy", "0.5", BVHBENCH_POWERCAP="power")[0]["counters"]
     is_over.set()
-    counting.join()
-    assert 36 < counters["energy_watts"] < 44 and 40e-5 < counters["energy_joules"] < 4, counters
+    assert 25 < counters["energy_watts"] < 60 and 40e-5 < counters["energy_joules"] < 4, counters
     for folder, why in (("power", "stands still"), ("nowhere", "does not tell its energy: no intel-rapl in nowhere")):
         cell, = cells_after(*BUILD, "--energy", "0.1", BVHBENCH_POWERCAP=folder)
         assert why in cell["left_out"]["energy_joules"] and "energy_joules" not in cell["counters"], cell

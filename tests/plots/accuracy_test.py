@@ -38,10 +38,10 @@ class Figures(InFolder):
     def axis(self, name: str) -> list[dict]:
         return [cell for cell in self.document["cells"] if cell["accuracy"]["axis"] == name]
 
-    def drawn(self, name: str, picture: str = "") -> accuracy.plt.Figure:
+    def drawn(self, name: str) -> accuracy.plt.Figure:
         figures = catalog.pictures_of(self.run_of(self.axis(name)))
-        self.assertEqual(list(figures), [f"accuracy-{one}" for one in accuracy.FIGURES[name]])
-        drawing = figures[f"accuracy-{picture or name}"]()
+        self.assertEqual(list(figures), [f"accuracy-{name}"])
+        drawing = figures[f"accuracy-{name}"]()
         drawing.draw_without_rendering()
         return drawing
 
@@ -59,11 +59,6 @@ class Figures(InFolder):
                 self.assertEqual((worst.get_xdata()[0], typical.get_xdata()[0]), (values[-1], statistics.median(values)))
         self.assertIn("150,000 pairs of triangles in 3 classes, seed 1", drawing.texts[0].get_text())
         self.assertIn("guigue-f64 needs doubles", drawing.texts[0].get_text())
-
-    def test_of_narrow_phases_have_a_second_sheet_with_all_classes_in_numbers(self) -> None:
-        axes, = self.drawn("narrow", "classes").axes
-        self.assertEqual([label.get_text() for label in axes.get_yticklabels()], ["generic", "same place", "scaled 1e-16"])
-        self.assertEqual(len(axes.texts), 2 * len(self.run_of(self.axis("narrow")).cells))
 
     def test_of_sums_codes_and_input_show_all_that_was_measured(self) -> None:
         self.assertEqual([len(axes.lines) for axes in self.drawn("sums").axes], [7, 7])

@@ -13,6 +13,7 @@ from unittest import mock
 from base import GOLDEN, ROOT  # first: it adds the source root to sys.path
 
 from plots.commands import reproduce
+from plots.console import claims
 from plots.read import results
 
 # Its exit codes are in CODES, such as "table1=1 view=3". It appends each call to the file "calls".
@@ -70,11 +71,20 @@ class OfReproduce(unittest.TestCase):
         done = self.reproduce(0, "all")
         runs = [call.split()[1] for call in self.calls() if call.startswith("run ")]
         self.assertEqual(runs, ["table1", "fig8", "table2", "table3", "table4", "fig13"])
+        self.assertIn("15 of 30 claims", done.stdout)
         for figure in ("fig9", "fig10"):
             self.assertIn(f"bvhbench plot out/table2.json --only {figure} ", done.stdout)
         self.assertEqual(done.stdout.splitlines()[-1], f"no page was made: {sys.executable} has no module matplotlib; elsewhere: "
                                                        "bvhbench report out/*.json -o out/report.html")
         self.assertEqual(done.stderr, f"bvhbench: {sys.executable} has no module matplotlib\n" * 8)  # one for each figure
+
+    def test_a_verdict_follows_from_the_ratios(self) -> None:
+        for values, bounds, says in (([1.2, 2], (), "confirmed"), ([0.9, 1.1], (), "confirmed in part"), ([0.9, 1], (), "not confirmed"),
+                                     ([2, 5], (4,), "confirmed in part"), ([0.95, 2], (0.9, 0.9), "confirmed"), ([], (), "not judged: nothing was measured")):
+            self.assertEqual(claims.verdict(values, *bounds), says, values)
+        table1 = results.everything(str(GOLDEN / "table1.json"))
+        times = {cell.builder: cell.median_ns("hierarchy") for cell in table1.all_cells[::-1]}  # of the first scene
+        self.assertEqual(claims.ratios(claims.CLAIMS[0], table1)[0], times["apetrei"] / min(times["oibvh-single"], times["oibvh-multi"]))
 
     def test_ends_as_the_worst_run_that_measured_something(self) -> None:
         self.reproduce(1, "all", codes="fig8=1 table2=4")

@@ -1,17 +1,15 @@
 import statistics
 
+from plots.console.claims import BVTT, FRESH, FROM_ROOT, RADIX
 from plots.evidence.quotes import ONE_SET, Document, File, best, later_ms, ratios, us
 from plots.read import families, results
 from plots.read.cells import Cell, later
 from plots.words import tables
 
 BLOCK, GROUP, LEAF = (f"{name} over oibvh-multi (hilbert30, sorted leaves)" for name in ("block", "group", "leaf"))
-BVTT, CDK18 = "bvtt (jump 2) over oibvh-multi", "bvtt (jump 1) over perfect"
-FROM_ROOT = "bvtt (without start-level, jump 1) over oibvh-multi"
+CDK18 = "bvtt (jump 1) over perfect"
 SAT = f"{BVTT}, contacts sat-f32"
-FRONT, FRESH, REFIT = "front over oibvh-multi", "front (always rebuild) over apetrei-fused", "group (always refit) over apetrei-fused"
-RADIX = [f"{name} over apetrei-fused" for name in ("front", "front-leaf", "front (one tree of the scene)",
-                                                   "front-leaf (one tree of the scene)")]
+FRONT, REFIT = "front over oibvh-multi", "group (always refit) over apetrei-fused"
 TABLE2 = {"cloth-ball": "unc_cloth_ball, 15 between", "funnel": "unc_cloth_funnel, 15 between", "n-body": "unc_nbody, 15 between",
           "flamenco": "cloth-dress:49000"}
 REAL = {f"{name}, real step": scene.partition(",")[0] for name, scene in TABLE2.items() if "between" in scene}
