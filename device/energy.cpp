@@ -19,36 +19,46 @@ namespace {
     throw Unavailable("the device does not tell its energy: " + why);
 }
 
-/// Returns a function of NVIDIA's library. It is loaded at the first use, because only machines with a card of NVIDIA have it.
+/// Loads NVIDIA's library at the first use, because only machines with an NVIDIA card have it.
+void* nvml()
+{
+    static void* const library = dlopen("libnvidia-ml.so.1", RTLD_NOW);
+    return library;
+}
+
 template <class Function>
 Function* of_nvml(const char* name)
 {
-    static void* const library = dlopen("libnvidia-ml.so.1", RTLD_NOW);
-    void* const found = library == nullptr ? nullptr : dlsym(library, name);
+    void* const found = nvml() == nullptr ? nullptr : dlsym(nvml(), name);
     if (found == nullptr)
         tells_none(std::string("no ") + name + " in libnvidia-ml.so.1");
     return reinterpret_cast<Function*>(found);
 }
 
-/// Returns a property of cl_nv_device_attribute_query.
-cl_uint attribute(const cl::Device& device, cl_device_info what)
+/// Returns where NVML finds the card, by cl_nv_device_attribute_query: a slot has the device and, in three bits, its function.
+std::string place_of(const cl::Device& device)
 {
-    cl_uint value = 0;
-    if (clGetDeviceInfo(device(), what, sizeof value, &value, nullptr) != CL_SUCCESS)
-        tells_none("its driver does not say where it is");
-    return value;
+    constexpr cl_device_info attributes[] = {0x400A, 0x4008, 0x4009};  // domain, bus, slot
+    cl_uint found[3] = {};
+    for (const int k : {0, 1, 2})
+        if (clGetDeviceInfo(device(), attributes[k], sizeof found[k], &found[k], nullptr) !=
+                CL_SUCCESS &&
+            k > 0)  // older drivers have no domain
+            tells_none("its driver does not say where it is");
+    char place[40];
+    std::snprintf(place, sizeof place, "%08x:%02x:%02x.%x", found[0], found[1], found[2] >> 3,
+                  found[2] & 7);
+    return place;
 }
 
 std::function<double()> joules_of_card(const cl::Device& device)
 {
-    constexpr cl_device_info bus = 0x4008, slot = 0x4009, domain = 0x400A;
-    char place[40];
-    std::snprintf(place, sizeof place, "%08x:%02x:%02x.0", attribute(device, domain),
-                  attribute(device, bus), attribute(device, slot));
+    const std::string place = place_of(device);
     void* handle = nullptr;
     if (of_nvml<int()>("nvmlInit_v2")() != 0 ||
-        of_nvml<int(const char*, void**)>("nvmlDeviceGetHandleByPciBusId_v2")(place, &handle) != 0)
-        tells_none(std::string("NVML does not know a card at ") + place);
+        of_nvml<int(const char*, void**)>("nvmlDeviceGetHandleByPciBusId_v2")(place.c_str(),
+                                                                              &handle) != 0)
+        tells_none("NVML does not know a card at " + place);
     const auto read =
         of_nvml<int(void*, unsigned long long*)>("nvmlDeviceGetTotalEnergyConsumption");
     return [handle, read] {
@@ -78,14 +88,15 @@ std::function<double()> joules_of_packages(const std::filesystem::path& powercap
     std::vector<Package> packages;
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(powercap, none)) {
-        const std::string name =
-            entry.path().filename().string();  // intel-rapl:0; with parts intel-rapl:0:1
-        if (name.starts_with("intel-rapl:") && name.rfind(':') == name.find(':'))
-            packages.push_back({entry.path(), microjoules(entry.path() / "max_energy_range_uj"),
-                                microjoules(entry.path() / "energy_uj")});
+        const std::filesystem::path folder = entry.path();
+        std::string name;
+        if (folder.filename().string().starts_with("intel-rapl:") &&
+            std::ifstream(folder / "name") >> name && name.starts_with("package"))
+            packages.push_back({folder, microjoules(folder / "max_energy_range_uj"),
+                                microjoules(folder / "energy_uj")});
     }
     if (packages.empty())
-        tells_none("no intel-rapl in " + powercap.string());
+        tells_none("no package of intel-rapl in " + powercap.string());
     return [packages]() mutable {
         double joules = 0;
         for (Package& one : packages) {

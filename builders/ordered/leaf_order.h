@@ -42,11 +42,11 @@ public:
     /// Enqueues all stages. Allocates nothing and does not block.
     void enqueue(const Input& input, Queue& queue);
 
-    /// Enqueues the first stage only: new boxes, unchanged order; several objects keep their bounds unless these are `wanted`, too. Does
+    /// Enqueues the first stage only: new boxes, unchanged order; several objects keep their bounds unless it `joins` them, too. Does
     /// not block.
-    void enqueue_boxes(const Input& input, Queue& queue, bool wanted)
+    void enqueue_boxes(const Input& input, Queue& queue, bool joins)
     {
-        bounds_.enqueue(input, queue, "bounds", wanted);
+        bounds_.enqueue(input, queue, "bounds", joins);
     }
 
     /// Takes the additional memory for updates of some of several objects.

@@ -102,7 +102,8 @@ const Tree& OrderedBuilder::refit(const Input& input, Queue& queue)
 {
     assert(object_sizes(input) == sizes_);
     tree().queue = &queue;
-    leaf_order_.enqueue_boxes(input, queue, format_.has_cells());  // which are made of the bounds
+    leaf_order_.enqueue_boxes(input, queue,
+                              format_.has_cells() || options_.grid == GridOver::scene);
     gather_if_sorted(input, queue);
     queue.begin("refit");
     if (lines_up())

@@ -95,13 +95,13 @@ void BoundsStage::prepare(const cl::CommandQueue& queue)
     one_.upload(queue, {&none, 1});
 }
 
-void BoundsStage::enqueue(const Input& input, Queue& queue, std::string_view stage, bool wanted)
+void BoundsStage::enqueue(const Input& input, Queue& queue, std::string_view stage, bool joins)
 {
     assert(input.triangle_count() == boxes_.size());
     assert(!is_forest() || input.objects.size() == bounds_.size());
     queue.begin(stage);
     if (is_forest())
-        enqueue_chosen(input, all_, wanted, queue);
+        enqueue_chosen(input, all_, joins, queue);
     else
         enqueue_one(input, queue);
 }
@@ -131,7 +131,7 @@ void BoundsStage::enqueue_one(const Input& input, Queue& queue)
                  static_cast<std::int64_t>(partials_.bytes() + bounds_.bytes()));
 }
 
-void BoundsStage::enqueue_chosen(const Input& input, const ObjectRuns& chosen, bool wanted,
+void BoundsStage::enqueue_chosen(const Input& input, const ObjectRuns& chosen, bool joins,
                                  Queue& queue)
 {
     if (chosen.count() == 0)
@@ -144,7 +144,7 @@ void BoundsStage::enqueue_chosen(const Input& input, const ObjectRuns& chosen, b
     queue.launch(boxes_kernel(input, input.device_faces, boxes_, partials_, chosen.runs()),
                  chosen.count() * chosen.group(), chosen.group(),
                  static_cast<std::int64_t>(share * moved));
-    if (!wanted)
+    if (!joins)
         return;
     set_arguments(join_kernel_, partials_, bounds_, chosen.first_runs(), chosen.objects());
     queue.launch(join_kernel_, chosen.lined_up_objects() * chosen.group(), chosen.group(),

@@ -32,10 +32,10 @@ public:
     /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Enqueues the pass over all objects as a stage named `stage`. Several objects keep their bounds unless these are `wanted`, too.
+    /// Enqueues the pass over all objects as a stage named `stage`. Several objects keep their bounds unless it `joins` them, too.
     /// Does not block.
     void enqueue(const Input& input, Queue& queue, std::string_view stage = "bounds",
-                 bool wanted = true);
+                 bool joins = true);
 
     /// Enqueues the boxes of the chosen objects and the bounds of those that are reordered. Other objects keep theirs.
     void enqueue(const Input& input, const ObjectRuns& chosen, Queue& queue);
@@ -52,7 +52,7 @@ private:
     template <class... Arguments>
     cl::Kernel& boxes_kernel(const Input& input, const Arguments&... more);
     void enqueue_one(const Input& input, Queue& queue);
-    void enqueue_chosen(const Input& input, const ObjectRuns& chosen, bool wanted, Queue& queue);
+    void enqueue_chosen(const Input& input, const ObjectRuns& chosen, bool joins, Queue& queue);
 
     Programs& programs_;
     KernelForm form_;

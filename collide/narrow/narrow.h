@@ -89,8 +89,8 @@ public:
     void query(const Input& input, const Buffer<Pair>& candidates,
                const Buffer<uint>& candidate_counters, Queue& queue);
 
-    /// True if every buffer of the last query was large enough, and nothing was left open that had been expected to be decided by
-    /// the filter, as in the queries before; otherwise enlarges the buffers. Blocks.
+    /// True if every buffer of the last query was large enough and all that its filter left open was decided. Otherwise enlarges buffers
+    /// that were too small; the next query decides what is left open. Blocks.
     bool complete(const Queue& queue);
 
     /// Counts and contacts of the last query, which must have been complete. Both functions block.

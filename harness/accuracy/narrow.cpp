@@ -137,7 +137,7 @@ void measure_piece(const AxisRun& run, const std::string& name, const Piece& pie
             const auto listed = static_cast<std::int64_t>(piece.pairs.size() + first.size());
             const std::int64_t moved =
                 corner_bytes(piece.pairs, piece.input) + listed * std::int64_t{sizeof(Pair)};
-            one.once = [&, narrow, moved] {
+            one.once = [&, narrow, moved] {  // never complete(), so that the exact test is launched
                 session.give_head_start();
                 narrow->query(piece.input, piece.candidates.pairs, piece.candidates.counters,
                               session.queue());

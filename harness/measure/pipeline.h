@@ -35,7 +35,7 @@ public:
     /// rule `near` built holds some triangles only: it is kept if all objects are unchanged, and else rebuilt, never refitted.
     void begin_frame(std::span<const Motion> motions);
 
-    /// Runs the whole frame until no buffer overflows, and reserves memory for the triangles that enter it. Returns the stages of
+    /// Runs the whole frame until its queries are complete, and reserves memory for the triangles that enter it. Returns the stages of
     /// the last run, which may include compiling. Blocks until done.
     std::vector<StageTime> prepare(const Input& input);
 

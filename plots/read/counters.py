@@ -10,7 +10,7 @@ UNSTEADY = {
        for counter in ("memory_bytes", "query_bytes") for collider in ("bvtt", "front")}}
 FOUND = ("pairs_count", "contacts_count")  # all that a library guarantees
 LIBRARIES = ("embree", "fcl")  # which builders and colliders wrap; beginnings of their names
-UNITS_OF_TIME = ("_ns", "_us", "_ms", "_s", "_per_s", "_joules", "_watts")  # and of energy
+UNSTEADY_UNITS = ("_ns", "_us", "_ms", "_s", "_per_s", "_joules", "_watts")  # and of energy
 # Counters that are exact on each device but differ between devices: sizes depend on the number of compute units, and queues grow
 # in steps of the device's, and bvtt starts where the device is tuned to.
 SIZED_BY_DEVICE = {"scratch_bytes", "query_bytes", "near_bytes", "narrow_bytes", "memory_bytes", "device_peak_bytes",
@@ -22,7 +22,7 @@ COSTS = {"sah_cost", "sah_inner", "sah_leaf", "sibling_overlap", "depth_max", "d
 
 def is_time(counter: str) -> bool:
     """True if the name ends with a unit of time or energy, or is a rate."""
-    return counter.endswith(UNITS_OF_TIME)
+    return counter.endswith(UNSTEADY_UNITS)
 
 
 def is_exact(counter: str, cell: Cell) -> bool:

@@ -95,6 +95,8 @@ class Remake(unittest.TestCase):
         cells.append({"scene": {"name": "hand"}, "reason": "data set 'hand' is not there: not in '/tmp'"})
         without_data = runpy.run_path(str(SCRIPT))["without_data"]
         self.assertEqual([without_data({"cells": cells}, before) for before in ({"cells": cells[:1]}, {})], [["hand", "n-body"], ["hand"]])
+        by_another = [{"scene": {"name": "cloth", "stand_in_for": "bunny"}}, *cells[1:]]
+        self.assertEqual(without_data({"cells": cells}, {"cells": by_another}), ["bunny", "hand"])
 
     def test_merges_what_several_commands_made(self) -> None:
         script, maker = self.maker()

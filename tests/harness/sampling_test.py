@@ -2,6 +2,7 @@
 """Tests how samples are taken, according to the program's output and its result files."""
 import os
 import pathlib
+import shutil
 import statistics
 import subprocess
 import sys
@@ -43,19 +44,22 @@ def test_a_target_stops_and_says_why() -> None:
 def test_joules_are_counted_where_a_counter_moves() -> None:
     package, begun, is_over = pathlib.Path("power/intel-rapl:0"), time.monotonic(), threading.Event()
     package.mkdir(parents=True)
-    (package / "max_energy_range_uj").write_text("24000000")
+    for name, text in (("name", "package-0"), ("max_energy_range_uj", "24000000"), ("energy_uj", "0")):
+        (package / name).write_text(text)
+    shutil.copytree(package, "power/intel-rapl:1")
+    pathlib.Path("power/intel-rapl:1/name").write_text("psys")
 
     def count() -> None:  # 40 W; it begins at 0 again every 0.6 s
         while not is_over.wait(0.01):
             (package / "next").write_text(str(int(40e6 * (time.monotonic() - begun)) % 24000000))
             os.replace(package / "next", package / "energy_uj")
 
-    threading.Thread(target=count).start()
-    counters = cells_after(*BUILD, "--energy", "0.5", BVHBENCH_POWERCAP="power")[0]["counters"]
+    threading.Thread(target=count, daemon=True).start()
+    counters = cells_after(*BUILD, "--device", "cpu", "--energy", "0.5", BVHBENCH_POWERCAP="power")[0]["counters"]
     is_over.set()
     assert 25 < counters["energy_watts"] < 60 and 40e-5 < counters["energy_joules"] < 4, counters
-    for folder, why in (("power", "stands still"), ("nowhere", "does not tell its energy: no intel-rapl in nowhere")):
-        cell, = cells_after(*BUILD, "--energy", "0.1", BVHBENCH_POWERCAP=folder)
+    for folder, why in (("power", "stands still"), ("nowhere", "does not tell its energy: no package of intel-rapl in nowhere")):
+        cell, = cells_after(*BUILD, "--device", "cpu", "--energy", "0.1", BVHBENCH_POWERCAP=folder)
         assert why in cell["left_out"]["energy_joules"] and "energy_joules" not in cell["counters"], cell
 
 

@@ -32,8 +32,8 @@ def short_codes(doc: Document) -> None:
 
     meshes = "torus:144046", "torus:400000"
     doc.says("take {} of the time along `hilbert30` for torus:144046 and {} for", *(ratio(mesh, 0, "order", "hierarchy") for mesh in meshes))
-    doc.says("exact contacts take {} and {}, the two of `unc_cloth_ball` {} and {} (", *(ratio(mesh, 0) for mesh in meshes),
-             *(ratio("unc_cloth_ball", frame) for frame in (0, 1)))
+    doc.says("exact contacts take {} and {}, the two of `unc_cloth_ball` {} and {}, those of `unc_nbody` {} and {} (",
+             *(ratio(mesh, 0) for mesh in meshes), *(ratio(scene, frame) for scene in ("unc_cloth_ball", "unc_nbody") for frame in (0, 1)))
 
 
 def quotes(doc: Document) -> None:
