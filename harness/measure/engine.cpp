@@ -208,7 +208,7 @@ void Engine::count_joules(Measurement& measurement, Cell& cell)
     });
     session_.set_caches(Caches::hot);
     if (!failure.empty())
-        return refuse(cell, Cell::Status::failed, std::move(failure));
+        return refuse(measurement.cell, Cell::Status::failed, std::move(failure));
     if (taken == 0) {
         cell.left_out["energy_joules"] = "the device's counter of joules stands still";
         return;
