@@ -18,6 +18,7 @@ from program import ALL_CASES, PATIENCE_S, PROGRAM, SOURCE, at_work, copied_kern
 
 SHARED = ("--share-devices", "--force")
 UNNAMED = ", and so were the others; mpirun does not say which\n"  # of a rank that is lost while it starts
+HUNG = "bvhbench: mpirun or a rank ended, the others did not within 60 s, and all were ended\n"  # Open MPI, if one is lost as ranks connect
 STAGES = ("partition", "build", "boxes", "select", "exchange", "self", "halo", "narrow", "gathering", "verdict")
 
 
@@ -317,7 +318,7 @@ def test_a_killed_rank_ends_all():
         which = f"rank {rank} on {os.uname().nodename}"
         if errors.endswith(UNNAMED):  # it was still starting
             which = "a rank"
-        assert errors.startswith(f"bvhbench: {which} was ended by signal 9 (Killed)"), errors
+        assert errors == HUNG or errors.startswith(f"bvhbench: {which} was ended by signal 9 (Killed)"), errors
         assert errors.count("\n") == 1, errors
 
 
