@@ -308,18 +308,18 @@ def night_test_what_is_simulated_is_what_ranks_send():
 
 
 def test_a_killed_rank_ends_all():
-    kills = int(os.environ.get("CLUSTER_KILLS", "3"))
+    kills, hung = int(os.environ.get("CLUSTER_KILLS", "3")), 0
     for kill in range(kills):
         rank = str(kill % 2)
         child, mark = started(3.0 * kill / kills)
         os.kill(max(process for process, of in processes_of(mark) if of == rank), signal.SIGKILL)
-        errors = ended(child, mark)
+        hung += (errors := ended(child, mark)) == HUNG
         assert child.returncode == 4, (child.returncode, errors)
         which = f"rank {rank} on {os.uname().nodename}"
         if errors.endswith(UNNAMED):  # it was still starting
             which = "a rank"
         assert errors == HUNG or errors.startswith(f"bvhbench: {which} was ended by signal 9 (Killed)"), errors
-        assert errors.count("\n") == 1, errors
+        assert errors.count("\n") == 1 and hung <= 1, errors  # one signal may strike while ranks connect
 
 
 def test_a_rank_that_mpirun_does_not_name_is_said_to_be_lost():
