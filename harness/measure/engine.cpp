@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "device/energy.h"
 #include "harness/base/failure.h"
-#include "harness/base/test_hooks.h"
 #include "harness/session/race.h"
 #include "harness/session/sampler.h"
 #include "process/watchdog.h"
@@ -16,11 +14,6 @@ namespace {
 
 /// Fewer samples than this run without calibration: compiling it takes longer than they do, and drift matters little.
 constexpr int fewest_calibrated = 9;
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Samples on the session's device, with such caches. Runs the calibration between samples if there are enough of them. Throws as
 /// take_samples does.
@@ -163,58 +156,6 @@ std::vector<StageTime> Engine::from_host(Measurement& measurement)
         std::ranges::move(queue.finish(), std::back_inserter(stages));
     });
     return stages;
-}
-
-/// Runs a cell alone in a plain loop, from one step of the device's counter of joules to another; notes joules and watts, or why not.
-void Engine::count_joules(Measurement& measurement, Cell& cell)
-{
-    constexpr double between_looks_s = 0.005;  // looking takes time as well
-    const Turns::Turn turn(session_.turns());
-    const watchdog::CellScope scope(measurement.number);
-    std::function<double()> joules;
-    std::string why = reason_of_failure([&] {
-        const auto on_host = [](const StageTime& stage) { return stage.launches == 0; };
-        if (!session_.device().is_cpu() && std::ranges::any_of(cell.samples.back().stages, on_host))
-            throw Unavailable("a stage is on the host, and the device tells of itself");
-        joules = energy_counter(session_.device(), powercap());
-    });
-    if (!why.empty()) {
-        cell.left_out["energy_joules"] = std::move(why);
-        return;
-    }
-    double taken = 0, seconds = 0;
-    int runs = 0;
-    const auto run_for = [&](double least_s) {
-        const auto start = std::chrono::steady_clock::now();
-        for (; seconds_since(start) < least_s; ++runs)
-            measurement.once();
-    };
-    const auto run_to_a_step = [&] {
-        const double before = joules();
-        const auto start = std::chrono::steady_clock::now();
-        while (joules() == before && seconds_since(start) < 2)
-            run_for(between_looks_s);
-    };
-    session_.set_caches(Caches::host);  // no work before a run
-    std::string failure = reason_of_failure([&] {
-        run_to_a_step();
-        runs = 0;
-        const double before = joules();
-        const auto start = std::chrono::steady_clock::now();
-        run_for(plan_.rules.energy_s);
-        run_to_a_step();
-        taken = joules() - before;
-        seconds = seconds_since(start);
-    });
-    session_.set_caches(Caches::hot);
-    if (!failure.empty())
-        return refuse(measurement.cell, Cell::Status::failed, std::move(failure));
-    if (taken == 0) {
-        cell.left_out["energy_joules"] = "the device's counter of joules stands still";
-        return;
-    }
-    cell.counters["energy_joules"] = taken / runs;
-    cell.counters["energy_watts"] = taken / seconds;
 }
 
 /// Notes that `rounds` have been sampled in `sampling_s`, after `before_s` of preparation. All rounds take as long as the average.

@@ -41,6 +41,11 @@ struct Measurement {
 inline constexpr const char* no_copies_of_outside =
     "a method from outside gets its vertices through a file, which is no upload of its own";
 
+inline double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Runs `work` and returns its duration in nanoseconds of the host's clock. Throws BadClock if that is less than 0.
 std::int64_t host_ns(const std::function<void()>& work);
 
